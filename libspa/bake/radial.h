@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The radial baker: direct rasterisation of triangles into direction space.
+#pragma once
+
+#include "crossings.h"
+
+namespace spa::bake {
+
+// Finds the crossings of every sample by rasterising each triangle over the samples whose directions it
+// covers, in double precision, edges inclusive: watertight where triangles share vertices.
+// O(triangles + covered samples) time; the result does not depend on options.threads.
+// Source: ../../docs/baking.md, "Radial".
+CrossingGrid cast_radial(const CenteredModel& model, const Grid& grid, const CastOptions& options);
+
+} // namespace spa::bake
