@@ -27,23 +27,21 @@ struct LayerReport {
 };
 
 struct Report {
-    std::uint64_t triangles = 0;             // baked
-    std::uint64_t components = 0;            // edge-connected pieces, vertices welded by position
-    std::uint64_t open_edges = 0;            // with one triangle
-    std::uint64_t non_manifold_edges = 0;    // with three or more
-    std::uint64_t edge_on_triangles = 0;     // their plane holds the centre: no direction sees them
-    std::uint64_t missed_components = 0;     // needles lost: pieces that no sample's direction meets
-    std::uint64_t missed_triangles = 0;      // smaller than the sampling: no sample's direction meets them
-    double captured_area = 0;                // share of sampled surface area that is stored in some layer
-    std::uint64_t back_facing_samples = 0;   // whose outermost crossing is a back face
-    std::uint64_t thin_samples = 0;          // with a surface stored as a thin shell: it bounds no solid
-    std::uint64_t truncated_samples = 0;     // with more intervals than layers
-    bool center_on_surface = false;          // the centre is closer to the surface than 1e-4 R
-    bool center_inside = false;              // the centre is in the solid
-    std::vector<LayerReport> layers;         // as written
-    std::vector<std::string> warnings;       // full sentences
-    std::string gl;                          // orbit: GlContext::description()
-    double seconds = 0;                      // wall clock; never goes into a file
+    std::uint64_t triangles = 0;         // baked
+    std::uint64_t components = 0;        // pieces connected through vertices welded by position
+    std::uint64_t open_edges = 0;        // directed edges without a partner in the opposite direction
+    std::uint64_t edge_on_triangles = 0; // their plane holds the centre: no direction sees them
+    std::uint64_t unseen_components = 0; // pieces of which no sample stores a crossing: needles lost between
+                                         // the samples, or hidden behind the stored layers
+    std::uint64_t back_facing_samples = 0; // whose outermost crossing is a back face
+    std::uint64_t thin_samples = 0;        // with a surface that bounds no solid, stored as a thin shell
+    std::uint64_t truncated_samples = 0;   // with more intervals than layers
+    bool center_on_surface = false;        // the centre is closer to the surface than 1e-4 R
+    bool center_inside = false;            // the centre is in the solid (winding number above 0.5)
+    std::vector<LayerReport> layers;       // as written
+    std::vector<std::string> warnings;     // full sentences
+    std::string gl;                        // orbit: GlContext::description()
+    double seconds = 0;                    // wall clock; never goes into a file
 };
 
 struct Result {
@@ -51,8 +49,8 @@ struct Result {
     Report report;
 };
 
-// Bakes the whole model into one part. Throws Error (unsupported: no GL for the orbit; invalid_data: nothing to
-// bake, such as a model of zero size; internal) and Cancelled. Same model and options, same bytes.
+// Bakes the whole model into one part. Throws Error (unsupported: no GL for the orbit; invalid_data: nothing
+// to bake, such as a model of zero size; internal) and Cancelled. Same model and options, same bytes.
 Result bake_model(const Model& model, const Options& options, const Progress& progress = {});
 
 } // namespace spa::bake

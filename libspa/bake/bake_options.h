@@ -21,7 +21,7 @@ enum class Baker : std::uint8_t { radial, orbit };
 enum class GlApi : std::uint8_t { automatic, egl, osmesa };
 
 struct Options {
-    Grid grid{Mapping::octahedral, 257, 257};  // samples of depth and normals
+    Grid grid{Mapping::octahedral, 257, 257};       // samples of depth and normals
     Grid color_grid{Mapping::octahedral, 257, 257}; // samples of colour; same mapping as grid
     ElementFormat depth = ElementFormat::u16;
     ElementFormat normals = ElementFormat::oct16;

@@ -28,10 +28,10 @@ struct CenteredModel {
 struct Crossing {
     float radius = 0;           // r/R in (0, 1]
     std::uint32_t triangle = 0; // index into Model::triangles
-    Vec3f normal;               // shading normal, unit, on the side from which the crossing is seen: towards
-                                // the sphere if front_facing, towards the centre if not
+    Vec3f normal; // interpolated vertex normal, unit, never flipped: on the triangle's front, so
+                  // towards the sphere if front_facing, towards the centre if not
     std::array<std::uint8_t, 4> color{}; // sRGB, straight alpha: material alpha (mask and opaque: 255)
-    bool front_facing = true;   // the triangle's front faces the sphere: coming from outside, the ray enters
+    bool front_facing = true; // the triangle's front faces the sphere: coming from outside, the ray enters
 };
 
 // Crossings of sample i (row-major): crossings[first[i]] .. crossings[first[i + 1]), outermost first.

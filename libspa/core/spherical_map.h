@@ -50,9 +50,9 @@ struct Layer {
 
 // Error figures measured at bake, in units of the radius (shares in [0,1]); NaN = not measured.
 struct ErrorFigures {
-    float texel_distance_max = std::numeric_limits<float>::quiet_NaN();    // texel -> source surface
+    float texel_distance_max = std::numeric_limits<float>::quiet_NaN(); // texel -> source surface
     float texel_distance_mean = std::numeric_limits<float>::quiet_NaN();
-    float surface_distance_max = std::numeric_limits<float>::quiet_NaN();  // source surface -> map
+    float surface_distance_max = std::numeric_limits<float>::quiet_NaN(); // source surface -> map
     float surface_distance_mean = std::numeric_limits<float>::quiet_NaN();
     float captured_area = std::numeric_limits<float>::quiet_NaN();         // share of the source's area
     float normal_angle_mean = std::numeric_limits<float>::quiet_NaN();     // degrees
@@ -61,9 +61,9 @@ struct ErrorFigures {
 };
 
 struct Part {
-    Vec3d center;            // object space
-    double radius = 1;       // of the bounding sphere, in frame units, > 0
-    Mat3 frame;              // frame space -> object space, without the translation; invertible
+    Vec3d center;      // object space
+    double radius = 1; // of the bounding sphere, in frame units, > 0
+    Mat3 frame;        // frame space -> object space, without the translation; invertible
     Mapping mapping = Mapping::octahedral;
     std::int32_t node = -1;  // index of the source node that the part follows; -1 = the whole object
     std::int32_t joint = -1; // index of the skin joint that the part follows; -1 = none

@@ -102,8 +102,8 @@ constexpr double determinant(const Mat3& m) { return dot(m.row[0], cross(m.row[1
 // Inverse by cofactors. The caller makes sure that the determinant is not zero.
 constexpr Mat3 inverse(const Mat3& m) {
     const double s = 1.0 / determinant(m);
-    return transpose({{cross(m.row[1], m.row[2]) * s, cross(m.row[2], m.row[0]) * s,
-                       cross(m.row[0], m.row[1]) * s}});
+    return transpose(
+        {{cross(m.row[1], m.row[2]) * s, cross(m.row[2], m.row[0]) * s, cross(m.row[0], m.row[1]) * s}});
 }
 
 } // namespace spa

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake.h"
+
+#include "center.h"
+#include "color_image.h"
+#include "intervals.h"
+#include "orbit.h"
+#include "pack.h"
+#include "radial.h"
+
+#include "../core/error.h"
+#include "../mesh/components.h"
+
+#include <tbb/task_arena.h>
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace spa::bake {
+namespace {
+
+constexpr double on_surface_distance = 1e-4;
+
+// Square of the distance from the origin to a triangle (Ericson, Real-Time Collision Detection, 5.1.5).
+double distance_squared(Vec3d a, Vec3d b, Vec3d c) {
+    const Vec3d ab = b - a;
+    const Vec3d ac = c - a;
+    const auto at = [&](double v, double w) {
+        const Vec3d p = a + ab * v + ac * w;
+        return dot(p, p);
+    };
+    const double d1 = -dot(ab, a);
+    const double d2 = -dot(ac, a);
+    if (d1 <= 0 && d2 <= 0) return dot(a, a);
+    const double d3 = -dot(ab, b);
+    const double d4 = -dot(ac, b);
+    if (d3 >= 0 && d4 <= d3) return dot(b, b);
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return at(d1 / (d1 - d3), 0);
+    const double d5 = -dot(ab, c);
+    const double d6 = -dot(ac, c);
+    if (d6 >= 0 && d5 <= d6) return dot(c, c);
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return at(0, d2 / (d2 - d6));
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+        const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return at(1 - w, w);
+    }
+    const double sum = va + vb + vc;
+    return at(vb / sum, vc / sum);
+}
+
+// What can be said of the triangles as the centre sees them.
+void inspect_triangles(const CenteredModel& centered, Report& report) {
+    for (const Triangle& triangle : centered.model->triangles) {
+        const Vec3d a = to_double(centered.positions[triangle.vertex[0]]);
+        const Vec3d b = to_double(centered.positions[triangle.vertex[1]]);
+        const Vec3d c = to_double(centered.positions[triangle.vertex[2]]);
+        if (dot(a, cross(b, c)) == 0) ++report.edge_on_triangles;
+        if (!report.center_on_surface &&
+            distance_squared(a, b, c) < on_surface_distance * on_surface_distance) {
+            report.center_on_surface = true;
+        }
+    }
+}
+
+std::uint64_t back_facing_samples(const CrossingGrid& crossings) {
+    std::uint64_t count = 0;
+    for (std::size_t s = 0; s + 1 < crossings.first.size(); ++s) {
+        if (crossings.first[s] != crossings.first[s + 1] &&
+            !crossings.crossings[crossings.first[s]].front_facing) {
+            ++count;
+        }
+    }
+    return count;
+}
+
+// The stored surfaces of one grid. What is learned of the pieces on the first grid is used on the second, so
+// that depth and colour are paired alike.
+class Surfaces {
+public:
+    // context: of the orbit; null for the radial baker.
+    Surfaces(const GlContext* context, const CenteredModel& model, const Components& components,
+             const Options& options, Report& report)
+        : context_(context), model_(model), components_(components), options_(options), report_(report) {}
+
+    SurfaceGrid cast(const Grid& grid, const Progress& progress) {
+        const CastOptions cast{options_.layers == 1, options_.threads, progress};
+        const CrossingGrid crossings = context_ != nullptr
+                                           ? cast_orbit(*context_, model_, grid, options_.gl_naive, cast)
+                                           : cast_radial(model_, grid, cast);
+        const bool first = orientation_.seen.empty();
+        if (first) {
+            orientation_ = orient_components(crossings, components_);
+            report_.back_facing_samples = back_facing_samples(crossings);
+            for (std::uint32_t c = 0; c < components_.count; ++c) {
+                if (!orientation_.seen[c]) ++report_.unseen_components;
+                if (options_.layers > 1 && orientation_.solid[c]) report_.center_inside = true;
+            }
+        }
+        if (options_.layers == 1) return outermost_surface(crossings);
+        IntervalStatistics statistics;
+        SurfaceGrid surfaces =
+            pair_intervals(crossings, components_, orientation_, options_.layers, statistics);
+        if (first) {
+            report_.thin_samples = statistics.thin_samples;
+            report_.truncated_samples = statistics.truncated_samples;
+        }
+        return surfaces;
+    }
+
+private:
+    const GlContext* context_;
+    const CenteredModel& model_;
+    const Components& components_;
+    const Options& options_;
+    Report& report_;
+    Orientation orientation_;
+};
+
+std::string plural(std::uint64_t count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+void add_warnings(Report& report, const Options& options) {
+    const auto warn = [&](std::string text) { report.warnings.push_back(std::move(text)); };
+    if (report.layers.front().outer_coverage == 0) {
+        warn("no direction from the centre meets the surface: the map is empty; try --center captured");
+    }
+    if (report.center_on_surface) {
+        warn("the centre lies on the surface, so depths near it are unreliable; try --center captured");
+    }
+    if (report.edge_on_triangles > 0) {
+        warn(plural(report.edge_on_triangles, "triangle is", "triangles are") +
+             " seen edge-on from the centre and cannot be stored");
+    }
+    if (report.unseen_components > 0) {
+        warn(plural(report.unseen_components, "piece", "pieces") + " of " +
+             std::to_string(report.components) + " met no sample: thinner than the sampling, or hidden" +
+             (options.layers == 1 ? " behind others; more --layers or a larger --size may keep them"
+                                  : "; a larger --size may keep them"));
+    }
+    if (report.truncated_samples > 0) {
+        warn(plural(report.truncated_samples, "sample has", "samples have") + " more surfaces than " +
+             plural(options.layers, "layer holds", "layers hold") + "; the innermost are left out");
+    }
+}
+
+} // namespace
+
+Result bake_model(const Model& model, const Options& options, const Progress& progress) {
+    const auto start = std::chrono::steady_clock::now();
+    if (model.triangles.empty())
+        throw Error(ExitCode::invalid_data, "the model has no triangles: nothing to bake");
+    Result result;
+    Report& report = result.report;
+    std::unique_ptr<GlContext> context;
+    if (options.baker == Baker::orbit) {
+        context = make_gl_context(options.gl);
+        report.gl = context->description();
+    }
+    tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : int(options.threads));
+    arena.execute([&] {
+        bool moved = false;
+        Vec3d center = bounds_center(model, moved);
+        if (options.center == Center::captured)
+            center = captured_center(model, center);
+        else if (moved) {
+            report.warnings.emplace_back(
+                "the object is flat, so the centre of its bounding box would see it edge-on: the "
+                "centre was moved behind it");
+        }
+        const PartFrame frame = make_part_frame(model, center, options.frame == Frame::affine);
+        const CenteredModel centered = center_model(model, frame);
+        const Components components = find_components(model);
+        report.triangles = model.triangles.size();
+        report.components = components.count;
+        report.open_edges = components.open_edges;
+        inspect_triangles(centered, report);
+
+        const Grid color_grid = fine_grid(options.color_grid, options.samples);
+        const bool shared = color_grid == options.grid;
+        const double color_samples = shared ? 0 : double(color_grid.width) * color_grid.height;
+        const double shape_samples = double(options.grid.width) * options.grid.height;
+        const double split = shape_samples / (shape_samples + color_samples);
+        const auto between = [&](double from, double to) {
+            return progress ? Progress([&progress, from, to](double f) {
+                return progress(from + (to - from) * f);
+            })
+                            : Progress{};
+        };
+        Surfaces surfaces(context.get(), centered, components, options, report);
+        const SurfaceGrid shape = surfaces.cast(options.grid, between(0, split));
+        const SurfaceGrid color = shared ? SurfaceGrid{} : surfaces.cast(color_grid, between(split, 1));
+
+        Part part;
+        part.center = frame.center;
+        part.frame = frame.frame;
+        part.radius = frame.radius;
+        part.mapping = options.grid.mapping;
+        pack_layers(shape, shared ? shape : color, options, part, result.map);
+        for (std::size_t k = 0; k < part.layers.size(); ++k) {
+            report.layers.push_back(
+                {coverage(shape.surfaces[2 * k], shape.grid),
+                 part.layers[k].inner.empty() ? 0 : coverage(shape.surfaces[2 * k + 1], shape.grid)});
+        }
+        result.map.map.parts.push_back(std::move(part));
+    });
+    add_warnings(report, options);
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+} // namespace spa::bake

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "center.h"
+
+#include "radial.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+
+namespace spa::bake {
+namespace {
+
+constexpr Grid search_grid{Mapping::octahedral, 65, 65};
+
+Vec3d plane_normal(const Model& model, const Triangle& triangle) {
+    const Vec3d a = to_double(model.positions[triangle.vertex[0]]);
+    return cross(to_double(model.positions[triangle.vertex[1]]) - a,
+                 to_double(model.positions[triangle.vertex[2]]) - a);
+}
+
+struct Surface {
+    double area = 0;
+    Vec3d centroid;
+};
+
+Surface measure_surface(const Model& model) {
+    Surface surface;
+    for (const Triangle& triangle : model.triangles) {
+        const double area = length(plane_normal(model, triangle)) / 2;
+        for (const std::uint32_t v : triangle.vertex) {
+            surface.centroid = surface.centroid + to_double(model.positions[v]) * (area / 3);
+        }
+        surface.area += area;
+    }
+    if (surface.area > 0) surface.centroid = surface.centroid * (1 / surface.area);
+    return surface;
+}
+
+} // namespace
+
+CenteredModel center_model(const Model& model, const PartFrame& part) {
+    CenteredModel centered;
+    centered.model = &model;
+    centered.mirrored = determinant(part.frame) < 0;
+    centered.positions.resize(model.positions.size());
+    const Mat3 to_frame = inverse(part.frame);
+    const Mat3 normal_to_frame = transpose(part.frame);
+    const bool identity = part.frame == Mat3{};
+    if (identity)
+        centered.normals = model.normals;
+    else
+        centered.normals.resize(model.normals.size());
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, model.positions.size(), 4096), [&](const auto& range) {
+            for (std::size_t v = range.begin(); v < range.end(); ++v) {
+                const Vec3d q = to_double(model.positions[v]) - part.center;
+                centered.positions[v] = to_float((identity ? q : to_frame * q) * (1 / part.radius));
+                if (!identity)
+                    centered.normals[v] = to_float(normalize(normal_to_frame * to_double(model.normals[v])));
+            }
+        });
+    return centered;
+}
+
+double captured_area(const Model& model, Vec3d center) {
+    const PartFrame part = make_part_frame(model, center, false);
+    const CenteredModel centered = center_model(model, part);
+    const CrossingGrid grid = cast_radial(centered, search_grid, {});
+    double seen = 0;
+    for (std::size_t s = 0; s + 1 < grid.first.size(); ++s) {
+        if (grid.first[s] == grid.first[s + 1]) continue;
+        const Crossing& c = grid.crossings[grid.first[s]];
+        const TexelIndex texel{std::uint32_t(s % search_grid.width), std::uint32_t(s / search_grid.width)};
+        const Vec3d u = normalize(sample_direction(search_grid, texel));
+        const Vec3d n = normalize(plane_normal(model, model.triangles[c.triangle]));
+        const double r = double(c.radius) * part.radius;
+        // Grazing samples would count without bound for area that hardly any ray sees.
+        seen += solid_angle(search_grid, texel) * r * r / std::max(std::abs(dot(u, n)), 0.1);
+    }
+    return seen / measure_surface(model).area;
+}
+
+Vec3d captured_center(const Model& model, Vec3d start) {
+    Vec3d best = start;
+    double best_area = captured_area(model, best);
+    const auto consider = [&](Vec3d candidate) {
+        const double area = captured_area(model, candidate);
+        if (!(area > best_area)) return false;
+        best = candidate;
+        best_area = area;
+        return true;
+    };
+    consider(measure_surface(model).centroid);
+    double radius = 0;
+    for (const Vec3f& p : model.positions) radius = std::max(radius, length(to_double(p) - start));
+    int evaluations = 0;
+    for (double step = radius / 4; step >= radius / 64 && evaluations < 24 * 6;) {
+        constexpr std::array<Vec3d, 6> moves{
+            {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+        bool moved = false;
+        const Vec3d from = best;
+        for (const Vec3d& move : moves) {
+            ++evaluations;
+            moved = consider(from + move * step) || moved;
+        }
+        if (!moved) step /= 2;
+    }
+    return best;
+}
+
+} // namespace spa::bake

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// From crossings to intervals of solid. Source: ../../docs/baking.md, "Intervals".
+#pragma once
+
+#include "crossings.h"
+
+#include "../mesh/components.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace spa::bake {
+
+// One end of an interval along one direction; radius 0 = there is none.
+struct SurfacePoint {
+    float radius = 0;
+    Vec3f normal; // points out of the solid
+    std::array<std::uint8_t, 4> color{};
+};
+
+// The stored surfaces over a grid: surface 2 k is the outer end of interval k, 2 k + 1 its inner end, each
+// with one point a sample. With one layer there is only surface 0, the outermost crossing.
+struct SurfaceGrid {
+    Grid grid;
+    std::vector<std::vector<SurfacePoint>> surfaces;
+};
+
+// How the pieces of a model bound solid, estimated from all crossings over a grid.
+struct Orientation {
+    std::vector<bool> flipped; // per component: its faces point inwards
+    std::vector<bool> solid;   // per component: its winding number at the centre is above 1/2
+    std::vector<bool> seen;    // per component: at least one crossing
+};
+
+// A component's signed volume and its generalised winding number at the centre (Jacobson et al. 2013) are
+// integrals over directions of +-r^3/3 and +-1/(4 pi), summed over its crossings: the samples give both for
+// free.
+Orientation orient_components(const CrossingGrid& crossings, const Components& components);
+
+struct IntervalStatistics {
+    std::uint64_t thin_samples = 0;
+    std::uint64_t truncated_samples = 0;
+};
+
+// Thickness of the shell that stands for a surface that bounds no solid, in units of R (measured in the
+// layers study: thinner shells leak between samples).
+constexpr float shell_thickness = 2e-4F;
+
+// Pairs crossings component by component: coming from outside, a front face enters, a back face leaves its
+// own component's last entry. An entry left over reaches the centre if its component is solid there, else it
+// is a thin shell, and so is a back face that leaves nothing. The union of the intervals is kept, the
+// outermost `layers` of them. Deterministic; parallel over samples in the caller's arena.
+SurfaceGrid pair_intervals(const CrossingGrid& crossings, const Components& components,
+                           const Orientation& orientation, std::uint32_t layers,
+                           IntervalStatistics& statistics);
+
+// One layer: the outermost crossing of each sample, its normal turned to the side seen.
+SurfaceGrid outermost_surface(const CrossingGrid& crossings);
+
+} // namespace spa::bake
