@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake.h"
 
+#include "arena.h"
 #include "center.h"
 #include "color_image.h"
 #include "intervals.h"
@@ -161,7 +162,7 @@ Result bake_model(const Model& model, const Options& options, const Progress& pr
         context = make_gl_context(options.gl);
         report.gl = context->description();
     }
-    tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : int(options.threads));
+    tbb::task_arena arena(arena_concurrency(options.threads));
     arena.execute([&] {
         bool moved = false;
         Vec3d center = bounds_center(model, moved);

@@ -49,7 +49,7 @@ struct Cancelled {};
 struct CastOptions {
     bool outermost_only = true; // at most one crossing a sample, of either facing
     unsigned threads = 0;       // 0 = all cores
-    Progress progress;          // may be empty
+    Progress progress{};        // may be empty
 };
 
 // Rules both bakers follow, so that they agree:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "radial.h"
 
+#include "arena.h"
 #include "candidates.h"
 #include "progress_meter.h"
 #include "sample_directions.h"
@@ -234,7 +235,7 @@ CrossingGrid cast_radial(const CenteredModel& model, const Grid& grid, const Cas
     const Scene scene{model, grid, SampleDirections(grid), Shader(model)};
     ProgressMeter meter(options.progress, model.model->triangles.size());
     CrossingGrid result;
-    tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : int(options.threads));
+    tbb::task_arena arena(arena_concurrency(options.threads));
     arena.execute(
         [&] { result = options.outermost_only ? cast_outermost(scene, meter) : cast_all(scene, meter); });
     return result;
