@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace spa::measure {
+namespace {
+
+bool same_size(const ImageView& a, const ImageView& b) {
+    return a.empty() || b.empty() || (a.width == b.width && a.height == b.height);
+}
+
+double angle_degrees(Vec3d a, Vec3d b) {
+    return std::atan2(length(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi;
+}
+
+void compare_shape(const Surface& a, const Surface& b, double tolerance, SurfaceDifference& out) {
+    const ImageView& size = a.depth.empty() ? b.depth : a.depth;
+    const auto depth = [](const Surface& s, std::uint32_t x, std::uint32_t y) {
+        return s.depth.empty() ? 0.0 : double(decode_depth(s.depth.format, s.depth.at(x, y)));
+    };
+    const auto normal = [](const Surface& s, std::uint32_t x, std::uint32_t y) {
+        return to_double(decode_normal(s.normal.format, s.normal.at(x, y)));
+    };
+    std::vector<double> angles;
+    for (std::uint32_t y = 0; y < size.height; ++y) {
+        for (std::uint32_t x = 0; x < size.width; ++x) {
+            ++out.samples;
+            const double da = depth(a, x, y);
+            const double db = depth(b, x, y);
+            if ((da > 0) != (db > 0)) ++out.coverage_differs;
+            if (!(da > 0) || !(db > 0)) continue;
+            ++out.both;
+            const double difference = std::abs(da - db);
+            if (difference > tolerance * (1 + 1e-6)) ++out.depth_differs;
+            out.depth_mean += difference;
+            out.depth_max = std::max(out.depth_max, difference);
+            angles.push_back(angle_degrees(normal(a, x, y), normal(b, x, y)));
+            out.normal_mean += angles.back();
+            out.normal_max = std::max(out.normal_max, angles.back());
+        }
+    }
+    if (out.both > 0) {
+        const auto middle = angles.begin() + std::ptrdiff_t(angles.size() / 2);
+        std::nth_element(angles.begin(), middle, angles.end());
+        out.normal_median = *middle;
+        out.depth_mean /= double(out.both);
+        out.normal_mean /= double(out.both);
+    }
+}
+
+void compare_color(const Surface& a, const Surface& b, SurfaceDifference& out) {
+    const ImageView& size = a.color.empty() ? b.color : a.color;
+    const auto channel = [](const Surface& s, std::uint32_t x, std::uint32_t y, unsigned c) {
+        return s.color.empty() ? 0 : std::to_integer<int>(s.color.at(x, y)[c]);
+    };
+    std::uint64_t covered = 0;
+    for (std::uint32_t y = 0; y < size.height; ++y) {
+        for (std::uint32_t x = 0; x < size.width; ++x) {
+            const int alpha_a = channel(a, x, y, 3);
+            const int alpha_b = channel(b, x, y, 3);
+            out.alpha_mean += std::abs(alpha_a - alpha_b);
+            if (alpha_a == 0 || alpha_b == 0) continue;
+            ++covered;
+            for (unsigned c = 0; c < 3; ++c) {
+                const int difference = std::abs(channel(a, x, y, c) - channel(b, x, y, c));
+                out.color_mean += difference;
+                out.color_max = std::max(out.color_max, std::uint32_t(difference));
+            }
+        }
+    }
+    if (covered > 0) out.color_mean /= 3 * double(covered);
+    const double texels = double(size.width) * size.height;
+    if (texels > 0) out.alpha_mean /= texels;
+}
+
+Surface surface_of(const Part& part, std::size_t layer, Side side) {
+    if (layer >= part.layers.size()) return {};
+    return side == Side::outer ? part.layers[layer].outer : part.layers[layer].inner;
+}
+
+} // namespace
+
+MapDifference compare(const SphericalMap& a, const SphericalMap& b, const CompareOptions& options) {
+    MapDifference result;
+    if (a.parts.size() != b.parts.size()) {
+        result.structure = "one map has " + std::to_string(a.parts.size()) + " parts, the other " +
+                           std::to_string(b.parts.size());
+        return result;
+    }
+    for (std::uint32_t p = 0; p < a.parts.size(); ++p) {
+        const Part& pa = a.parts[p];
+        const Part& pb = b.parts[p];
+        if (pa.mapping != pb.mapping) {
+            result = {"part " + std::to_string(p) + " has mapping " + name(pa.mapping) + " in one map and " +
+                          name(pb.mapping) + " in the other",
+                      {}};
+            return result;
+        }
+        for (std::uint32_t l = 0; l < std::max(pa.layers.size(), pb.layers.size()); ++l) {
+            for (const Side side : {Side::outer, Side::inner}) {
+                const Surface sa = surface_of(pa, l, side);
+                const Surface sb = surface_of(pb, l, side);
+                if (sa.empty() && sb.empty()) continue;
+                if (!same_size(sa.depth, sb.depth) || !same_size(sa.color, sb.color)) {
+                    result = {"the images of part " + std::to_string(p) + ", layer " + std::to_string(l) +
+                                  " differ in size",
+                              {}};
+                    return result;
+                }
+                SurfaceDifference difference;
+                difference.part = p;
+                difference.layer = l;
+                difference.side = side;
+                compare_shape(sa, sb, options.depth_tolerance, difference);
+                compare_color(sa, sb, difference);
+                result.surfaces.push_back(difference);
+            }
+        }
+    }
+    return result;
+}
+
+} // namespace spa::measure
