@@ -18,18 +18,14 @@ constexpr std::uint32_t most_views = 1U << 19;
 
 // Binding points and uniform locations of shaders/orbit_common.glsl, orbit.vert and orbit.frag.
 constexpr GLuint camera_binding = 1, material_binding = 3;
-constexpr GLint first_camera_location = 0, first_round_location = 4;
+constexpr GLint first_camera_location = 0;
 
 class Orbit {
 public:
     Orbit(const GlFunctions& gl, const CenteredModel& model, const Grid& grid, bool naive,
           const CastOptions& options)
         : gl_(gl), errors_(gl), model_(model), grid_(grid), naive_(naive), options_(options),
-          materials_(gl, *model.model), vertex_array_(make_vertex_array(gl)) {
-        for (std::size_t i = 0; i < stage_count; ++i) {
-            const auto stage = Stage(i);
-            if (options.outermost_only == (stage == Stage::outermost)) programs_[i] = build(stage);
-        }
+          materials_(gl, *model.model), vertex_array_(make_vertex_array(gl)), program_(build(gl, naive)) {
         gl.BindVertexArray(vertex_array_.name());
         gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, material_binding, materials_.buffer().name());
         gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -56,14 +52,14 @@ public:
         const std::uint32_t bands = (grid_.height + rows - 1) / rows;
         if (naive_) {
             const WholeModel whole(gl_, model_, materials_);
-            const Tiles tiles = make_tiles(1);
+            const Tiles tiles(gl_, 1, !options_.outermost_only);
             for (std::uint32_t b = 0; b < bands; ++b) {
                 cast_naive(b * rows, std::min(rows, grid_.height - b * rows), whole, tiles);
             }
             return std::move(fragments_);
         }
         Batches batches(gl_, model_, materials_, options_.threads);
-        const Tiles tiles = make_tiles(std::min(rows, grid_.height) * grid_.width);
+        const Tiles tiles(gl_, std::min(rows, grid_.height) * grid_.width, !options_.outermost_only);
         for (std::uint32_t b = 0; b < bands; ++b) {
             share_begin_ = double(b) / bands;
             share_size_ = 1.0 / bands;
@@ -73,49 +69,29 @@ public:
     }
 
 private:
-    GlObject build(Stage stage) const {
-        constexpr std::array<const char*, stage_count> names{"OUTERMOST", "FIND", "PICK"};
-        const std::string head = std::string("#version 450 core\n#define ") + names[std::size_t(stage)] + "\n" +
-                                 (naive_ ? "#define NAIVE\n" : "") + orbit_common_source;
-        return make_program(gl_, head + orbit_vertex_source, head + orbit_fragment_source);
-    }
-
-    Tiles make_tiles(std::uint32_t cameras) {
-        Tiles tiles(gl_, cameras, !options_.outermost_only);
-        for (const GlObject& program : programs_) {
-            if (program.name() != 0) tiles.set_layout(program);
-        }
-        errors_.check("making the orbit baker's tiles");
-        return tiles;
-    }
-
-    void use(Stage stage, std::uint32_t round, std::uint32_t first_camera) const {
-        const GLuint program = programs_[std::size_t(stage)].name();
-        gl_.UseProgram(program);
-        gl_.ProgramUniform1ui(program, first_camera_location, first_camera);
-        if (stage == Stage::find) gl_.ProgramUniform1ui(program, first_round_location, round == 0 ? 1 : 0);
+    static GlObject build(const GlFunctions& gl, bool naive) {
+        const std::string head =
+            std::string("#version 450 core\n") + (naive ? "#define NAIVE\n" : "") + orbit_common_source;
+        return make_program(gl, head + orbit_vertex_source, head + orbit_fragment_source);
     }
 
     void report(double share) const {
         if (options_.progress && !options_.progress(share)) throw Cancelled{};
     }
 
-    // Draws until no view finds a crossing any more. draw(stage, round) draws all that may be seen; next(first)
-    // is told where the fragments of the round begin, and returns false if there will be no more.
+    // Draws until no view finds a crossing any more. draw(round) draws all that may be seen; next(first) is told
+    // where the fragments of the round begin.
     template <class Draw, class Next>
     void peel(const Tiles& tiles, std::uint32_t first_camera, const Draw& draw, const Next& next) {
+        gl_.ProgramUniform1ui(program_.name(), first_camera_location, first_camera);
         for (std::uint32_t round = 0;; ++round) {
             const std::size_t first = fragments_.size();
-            for (std::size_t i = 0; i < stage_count; ++i) {
-                const auto stage = Stage(i);
-                if (programs_[i].name() == 0) continue;
-                tiles.begin(stage, round);
-                use(stage, round, first_camera);
-                draw(stage, round);
-            }
+            tiles.begin(program_, round);
+            draw(round);
             tiles.read(fragments_);
             errors_.check("drawing views");
-            if (options_.outermost_only || fragments_.size() == first || !next(first)) return;
+            if (options_.outermost_only || fragments_.size() == first) return;
+            next(first);
         }
     }
 
@@ -147,26 +123,25 @@ private:
         gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, camera_binding, band.cameras.name());
         ViewTree tree(std::move(band.directions), grid_.width, rows);
         tree.set_wanted(band.wanted);
-        batches.begin(tree);
+        std::vector<Reached> reached(band.wanted.size());
+        batches.begin(tree, reached);
         const std::size_t begin = fragments_.size();
-        const auto draw = [&](Stage stage, std::uint32_t round) {
+        const auto draw = [&](std::uint32_t round) {
             batches.draw([&](double share) {
                 // How many rounds will follow is unknown: each fills half of what is left.
-                const double done = stage == Stage::outermost ? share
-                                                              : 1 - std::pow(0.5, round + 0.5 * share +
-                                                                                      (stage == Stage::pick ? 0.5 : 0));
+                const double done = options_.outermost_only ? share : 1 - std::pow(0.5, round + share);
                 report(share_begin_ + share_size_ * done);
             });
         };
         const auto next = [&](std::size_t first) {
             std::fill(band.wanted.begin(), band.wanted.end(), std::uint8_t(0));
             for (std::size_t i = first; i < fragments_.size(); ++i) {
-                band.wanted[fragments_[i].camera] |=
-                    fragments_[i].crossing.front_facing ? want_front : want_back;
+                const auto& [view, crossing] = fragments_[i];
+                band.wanted[view] |= crossing.front_facing ? want_front : want_back;
+                (crossing.front_facing ? reached[view].front : reached[view].back) = crossing.radius;
             }
             tree.set_wanted(band.wanted);
             batches.plan();
-            return true;
         };
         peel(tiles, 0, draw, next);
         for (std::size_t i = begin; i < fragments_.size(); ++i) fragments_[i].camera += y0 * grid_.width;
@@ -175,11 +150,11 @@ private:
     void cast_naive(std::uint32_t y0, std::uint32_t rows, const WholeModel& whole, const Tiles& tiles) {
         const Band band = make_band(y0, rows);
         gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, camera_binding, band.cameras.name());
-        const auto draw = [&](Stage, std::uint32_t) { whole.draw(); };
+        const auto draw = [&](std::uint32_t) { whole.draw(); };
         for (std::uint32_t view = 0; view < std::uint32_t(band.wanted.size()); ++view) {
             if (band.wanted[view] == 0) continue;
             const std::size_t begin = fragments_.size();
-            peel(tiles, view, draw, [](std::size_t) { return true; });
+            peel(tiles, view, draw, [](std::size_t) {});
             const std::uint32_t sample = y0 * grid_.width + view;
             for (std::size_t i = begin; i < fragments_.size(); ++i) fragments_[i].camera = sample;
             report(double(sample + 1) / (double(grid_.width) * grid_.height));
@@ -194,10 +169,34 @@ private:
     const CastOptions& options_;
     MaterialTable materials_;
     GlObject vertex_array_;
-    std::array<GlObject, stage_count> programs_;
+    GlObject program_;
     std::vector<Fragment> fragments_;
     double share_begin_ = 0, share_size_ = 1;
 };
+
+// Puts the crossings of one sample in order and makes those that are closer than merge_distance one
+// (crossings.h); returns the new end.
+Crossing* order_crossings(Crossing* begin, Crossing* end) {
+    std::sort(begin, end, [](const Crossing& a, const Crossing& b) {
+        if (a.radius != b.radius) return a.radius > b.radius;
+        if (a.front_facing != b.front_facing) return a.front_facing;
+        return a.triangle < b.triangle;
+    });
+    Crossing* out = begin;
+    std::array<Crossing*, 2> last{};       // of each facing
+    std::array<float, 2> outermost{0, 0};  // radius of the first that became part of it
+    for (Crossing* in = begin; in != end; ++in) {
+        const std::size_t facing = in->front_facing ? 0 : 1;
+        if (last[facing] && outermost[facing] - in->radius < merge_distance) {
+            if (in->triangle < last[facing]->triangle) *last[facing] = *in;
+            continue;
+        }
+        outermost[facing] = in->radius;
+        *out = *in;
+        last[facing] = out++;
+    }
+    return out;
+}
 
 // Sorts fragments by sample, outermost first, and gives identified samples copies.
 CrossingGrid to_grid(const Grid& grid, const std::vector<Fragment>& fragments) {
@@ -206,8 +205,11 @@ CrossingGrid to_grid(const Grid& grid, const std::vector<Fragment>& fragments) {
     for (const Fragment& f : fragments) ++first[f.camera + 1];
     for (std::size_t i = 0; i < samples; ++i) first[i + 1] += first[i];
     std::vector<Crossing> sorted(fragments.size());
-    std::vector<std::uint64_t> next(first.begin(), first.end() - 1);
-    for (const Fragment& f : fragments) sorted[next[f.camera]++] = f.crossing;
+    std::vector<std::uint64_t> end(first.begin(), first.end() - 1);
+    for (const Fragment& f : fragments) sorted[end[f.camera]++] = f.crossing;
+    for (std::size_t i = 0; i < samples; ++i) {
+        end[i] = std::uint64_t(order_crossings(sorted.data() + first[i], sorted.data() + end[i]) - sorted.data());
+    }
 
     CrossingGrid result;
     result.grid = grid;
@@ -219,12 +221,7 @@ CrossingGrid to_grid(const Grid& grid, const std::vector<Fragment>& fragments) {
             const std::size_t i = std::size_t(source.y) * grid.width + source.x;
             result.first.push_back(result.crossings.size());
             result.crossings.insert(result.crossings.end(), sorted.begin() + std::ptrdiff_t(first[i]),
-                                    sorted.begin() + std::ptrdiff_t(first[i + 1]));
-            std::stable_sort(result.crossings.begin() + std::ptrdiff_t(result.first.back()), result.crossings.end(),
-                             [](const Crossing& a, const Crossing& b) {
-                                 if (a.radius != b.radius) return a.radius > b.radius;
-                                 return a.front_facing && !b.front_facing;
-                             });
+                                    sorted.begin() + std::ptrdiff_t(end[i]));
         }
     }
     result.first.push_back(result.crossings.size());

@@ -33,17 +33,24 @@ Batches::Batches(const GlFunctions& gl, const CenteredModel& model, const Materi
     : gl_(gl), model_(model), materials_(materials),
       arena_(threads == 0 ? tbb::task_arena::automatic : int(threads)) {}
 
+template <class Found>
+void Batches::visit(std::uint32_t triangle, bool back_facing, const Found& found) const {
+    const DirectionBound bound = bound_directions(corner_positions(model_, triangle));
+    tree_->visit(bound, back_facing ? want_back : want_front, [&](std::uint32_t view) {
+        if (bound.nearest < (back_facing ? reached_[view].back : reached_[view].front)) found(view);
+    });
+}
+
 Batches::Active Batches::count(std::uint32_t triangle) const {
     const Facing facing = facing_of(model_, triangle);
     Active active{triangle, 0, facing == Facing::back};
-    if (facing == Facing::edge_on) return active;
-    tree_->visit(bound_directions(corner_positions(model_, triangle)), active.back_facing ? want_back : want_front,
-                 [&](std::uint32_t) { ++active.pairs; });
+    if (facing != Facing::edge_on) visit(triangle, active.back_facing, [&](std::uint32_t) { ++active.pairs; });
     return active;
 }
 
-void Batches::begin(const ViewTree& tree) {
+void Batches::begin(const ViewTree& tree, std::span<const Reached> reached) {
     tree_ = &tree;
+    reached_ = reached;
     active_.resize(model_.model->triangles.size());
     for (std::size_t i = 0; i < active_.size(); ++i) active_[i].triangle = std::uint32_t(i);
     plan();
@@ -92,9 +99,8 @@ void Batches::upload(Range range) {
             const Active& active = active_[range.begin + i];
             corners_[i] = make_corners(model_, active.triangle, active.back_facing);
             GpuPair* pair = pairs_.data() + first_pair[i];
-            tree_->visit(bound_directions(corner_positions(model_, active.triangle)),
-                         active.back_facing ? want_back : want_front,
-                         [&](std::uint32_t view) { *pair++ = {std::uint32_t(i), view}; });
+            visit(active.triangle, active.back_facing,
+                  [&](std::uint32_t view) { *pair++ = {std::uint32_t(i), view}; });
         }
     };
     arena_.execute(

@@ -15,17 +15,21 @@
 
 namespace spa::bake {
 
-// Views that still want a front-facing or a back-facing crossing.
+// What one view still wants: a bit for each facing, and only what lies below the radius reached.
 constexpr std::uint8_t want_front = 1, want_back = 2;
+constexpr float nothing_reached = 2;
+struct Reached {
+    float front = nothing_reached, back = nothing_reached;
+};
 
 class Batches {
 public:
     // Everything passed outlives it. threads: as CastOptions::threads. A tree has at most 2^19 views.
     Batches(const GlFunctions& gl, const CenteredModel& model, const MaterialTable& materials, unsigned threads);
 
-    // Starts on a rectangle of views. The tree must stay; what it wants may only shrink until the next begin.
-    void begin(const ViewTree& tree);
-    // Follows a change of what the tree wants.
+    // Starts on a rectangle of views. Both must stay; what they want may only shrink until the next begin.
+    void begin(const ViewTree& tree, std::span<const Reached> reached);
+    // Follows a change of what is wanted.
     void plan();
     // Draws all batches with the program in use. after(share) is called after each with the share drawn.
     void draw(const std::function<void(double)>& after);
@@ -43,6 +47,9 @@ private:
         std::uint32_t binding = 0, first_pair = 0, pairs = 0;
     };
 
+    // Calls found(view) for every view that wants the triangle.
+    template <class Found>
+    void visit(std::uint32_t triangle, bool back_facing, const Found& found) const;
     [[nodiscard]] Active count(std::uint32_t triangle) const;
     void upload(Range range);
 
@@ -51,6 +58,7 @@ private:
     const MaterialTable& materials_;
     tbb::task_arena arena_; // for the search alone: OpenGL stays on the caller's thread
     const ViewTree* tree_ = nullptr;
+    std::span<const Reached> reached_;
     std::vector<Active> active_; // triangles that some view wants, in the order of their indices
     std::vector<Range> ranges_;
     std::size_t uploaded_ = 0; // index into ranges_; ranges_.size() = none

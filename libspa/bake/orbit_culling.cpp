@@ -6,11 +6,13 @@
 namespace spa::bake {
 namespace {
 
-constexpr DirectionBound everything{{}, 4, {}, -4, 4};
+constexpr DirectionBound everything{{}, 4, {}, -4, 4, 0};
 
 // By how much the rasteriser can misplace an edge, in units of the sphere's radius, several times over: it
 // snaps to 1.2e-7, the transform and the clipping round to about as much.
 constexpr double edge_noise = 2e-6;
+// What that can do to the distance of a triangle seen at a slant.
+constexpr double distance_noise = 1e-4;
 
 } // namespace
 
@@ -36,7 +38,7 @@ DirectionBound bound_directions(const std::array<Vec3d, 3>& corners) {
     const double nearest = std::max(std::abs(dot(plane, corners[0])), length(middle) - extent);
     const double noise = edge_noise * (1 + 1 / std::max(nearest, 1e-6));
 
-    DirectionBound bound{to_float(center), float(radius + noise), {}, -4, 4};
+    DirectionBound bound{to_float(center), float(radius + noise), {}, -4, 4, float(nearest - distance_noise)};
 
     // A needle fills little of its ball, so bound it across its longest side too.
     std::size_t longest = 0;

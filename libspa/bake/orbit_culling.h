@@ -19,6 +19,7 @@ struct DirectionBound {
     float radius = 0;
     Vec3f slab_normal; // unit, or zero: no slab
     float slab_min = 0, slab_max = 0;
+    float nearest = 0; // no point of the triangle is closer to the origin
 };
 
 // The bound is wider than the triangle by what single precision and the rasteriser's grid can move its edges.

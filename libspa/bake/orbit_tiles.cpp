@@ -14,61 +14,52 @@ constexpr GLuint found_radius_unit = 1;
 
 } // namespace
 
-Tiles::Tiles(const GlFunctions& gl, std::uint32_t cameras, bool peel)
-    : gl_(gl), cameras_(cameras), tiles_(peel ? 2 * cameras : cameras),
+Tiles::Tiles(const GlFunctions& gl, std::uint32_t cameras, bool both_facings)
+    : gl_(gl), cameras_(cameras), tiles_(both_facings ? 2 * cameras : cameras),
       width_(std::min(std::bit_ceil(tiles_), 1024U)), height_(std::bit_ceil((tiles_ + width_ - 1) / width_)) {
     const auto texture = [&](GLenum format) {
         return make_texture(gl, format, GLsizei(width_), GLsizei(height_), 1);
     };
     surface_ = texture(GL_RGBA32UI);
     normal_ = texture(GL_RGBA32UI);
-    depth_ = texture(GL_DEPTH_COMPONENT32F);
     const std::array<const GlObject*, 2> colors{&surface_, &normal_};
-    result_ = make_framebuffer(gl, colors, depth_);
-    if (peel) {
-        for (std::size_t i = 0; i < 2; ++i) {
-            radius_[i] = texture(GL_DEPTH_COMPONENT32F);
-            find_[i] = make_framebuffer(gl, {}, radius_[i]);
-        }
+    for (std::size_t i = 0; i < 2; ++i) {
+        radius_[i] = texture(GL_DEPTH_COMPONENT32F);
+        target_[i] = make_framebuffer(gl, colors, radius_[i]);
     }
     sampler_ = make_sampler(gl);
     gl.SamplerParameteri(sampler_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl.SamplerParameteri(sampler_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-void Tiles::set_layout(const GlObject& program) const {
+void Tiles::begin(const GlObject& program, std::uint32_t round) const {
+    gl_.UseProgram(program.name());
     gl_.ProgramUniform1ui(program.name(), tiles_per_row_location, width_);
     gl_.ProgramUniform1ui(program.name(), tile_rows_location, height_);
     gl_.ProgramUniform1ui(program.name(), back_tiles_location, tiles_ - cameras_);
-}
+    gl_.ProgramUniform1ui(program.name(), first_round_location, round == 0 ? 1 : 0);
+    gl_.BindTextureUnit(found_radius_unit, radius_[(round + 1) % 2].name());
+    gl_.BindSampler(found_radius_unit, sampler_.name());
 
-void Tiles::begin(Stage stage, std::uint32_t round) const {
-    const std::size_t now = round % 2;
-    const GlObject& target = stage == Stage::find ? find_[now] : result_;
-    gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
+    const GLuint target = target_[round % 2].name();
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, target);
     gl_.Viewport(0, 0, GLsizei(width_), GLsizei(height_));
     constexpr GLfloat no_radius = 0;
-    gl_.ClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &no_radius);
-    if (stage != Stage::find) {
-        constexpr Pixel nothing{};
-        gl_.ClearNamedFramebufferuiv(target.name(), GL_COLOR, 0, nothing.data());
-        gl_.ClearNamedFramebufferuiv(target.name(), GL_COLOR, 1, nothing.data());
-    }
-    if (stage != Stage::outermost) {
-        gl_.BindTextureUnit(found_radius_unit, radius_[stage == Stage::find ? 1 - now : now].name());
-        gl_.BindSampler(found_radius_unit, sampler_.name());
-    }
+    constexpr Pixel nothing{};
+    gl_.ClearNamedFramebufferfv(target, GL_DEPTH, 0, &no_radius);
+    gl_.ClearNamedFramebufferuiv(target, GL_COLOR, 0, nothing.data());
+    gl_.ClearNamedFramebufferuiv(target, GL_COLOR, 1, nothing.data());
 }
 
 void Tiles::read(std::vector<Fragment>& fragments) const {
     const std::uint32_t rows = (tiles_ + width_ - 1) / width_;
     const auto pixels = [&](GLenum attachment) {
         std::vector<Pixel> image(std::size_t(width_) * rows);
-        gl_.NamedFramebufferReadBuffer(result_.name(), attachment);
+        gl_.NamedFramebufferReadBuffer(target_[0].name(), attachment);
         gl_.ReadPixels(0, 0, GLsizei(width_), GLsizei(rows), GL_RGBA_INTEGER, GL_UNSIGNED_INT, image.data());
         return image;
     };
-    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, result_.name());
+    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_[0].name());
     const std::vector<Pixel> surface = pixels(GL_COLOR_ATTACHMENT0);
     const std::vector<Pixel> normal = pixels(GL_COLOR_ATTACHMENT1);
     for (std::uint32_t tile = 0; tile < tiles_; ++tile) {

@@ -12,11 +12,6 @@
 
 namespace spa::bake {
 
-// outermost: the crossing of largest radius. find: the largest radius below that of the round before, without
-// its crossing. pick: the crossing of the first triangle at that radius.
-enum class Stage : std::uint8_t { outermost, find, pick };
-constexpr std::size_t stage_count = 3;
-
 struct Fragment {
     std::uint32_t camera = 0;
     Crossing crossing;
@@ -24,16 +19,14 @@ struct Fragment {
 
 class Tiles {
 public:
-    // peel: for find and pick, with two tiles a camera, one a facing; else for outermost alone.
-    Tiles(const GlFunctions& gl, std::uint32_t cameras, bool peel);
+    // both_facings: two tiles a camera, one for front-facing and one for back-facing triangles.
+    Tiles(const GlFunctions& gl, std::uint32_t cameras, bool both_facings);
 
-    // Where the shaders find a camera's tiles: sets the uniforms of a program built from shaders/orbit.*.
-    void set_layout(const GlObject& program) const;
+    // Makes the empty tiles the target of a program built from shaders/orbit.*. round counts from 0; later rounds
+    // draw only what lies below the crossings of the round before.
+    void begin(const GlObject& program, std::uint32_t round) const;
 
-    // Makes the tiles of a stage the target of what is drawn, empty. round counts from 0.
-    void begin(Stage stage, std::uint32_t round) const;
-
-    // Appends the crossings drawn since begin(outermost or pick), in the order of their tiles.
+    // Appends the crossings drawn since begin, in the order of their tiles.
     void read(std::vector<Fragment>& fragments) const;
 
 private:
@@ -41,10 +34,9 @@ private:
 
     const GlFunctions& gl_;
     std::uint32_t cameras_ = 0, tiles_ = 0, width_ = 0, height_ = 0;
-    GlObject surface_, normal_, depth_;
-    std::array<GlObject, 2> radius_; // of this round and the one before, alternating
-    GlObject result_;                // framebuffer of surface, normal and depth
-    std::array<GlObject, 2> find_;   // framebuffers of radius alone
+    GlObject surface_, normal_;
+    std::array<GlObject, 2> radius_; // depth buffers of this round and the one before, alternating
+    std::array<GlObject, 2> target_; // framebuffers of surface_, normal_ and one of radius_
     GlObject sampler_;
 };
 

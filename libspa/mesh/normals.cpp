@@ -23,7 +23,8 @@ Vec3d position_of(const Model& model, Corner c) { return to_double(model.positio
 // Corners that share a normal; the representative is the smallest, so results do not depend on the order.
 class CornerGroups {
 public:
-    explicit CornerGroups(std::size_t count) : parent_(count) {
+    explicit CornerGroups(std::size_t count) {
+        parent_.resize(count); // not parent_(count): GCC 12 warns of a write out of bounds that is not there
         std::iota(parent_.begin(), parent_.end(), Corner{0});
     }
     Corner find(Corner c) {
@@ -69,13 +70,13 @@ std::vector<Vec3d> face_normals(const Model& model) {
     std::vector<Vec3d> normals(model.triangles.size());
     for (std::size_t t = 0; t < normals.size(); ++t) {
         const Vec3d a = position_of(model, 3 * t);
-        normals[t] = normalize(
-            cross(position_of(model, 3 * t + 1) - a, position_of(model, 3 * t + 2) - a));
+        normals[t] = normalize(cross(position_of(model, 3 * t + 1) - a, position_of(model, 3 * t + 2) - a));
     }
     return normals;
 }
 
-CornerGroups group_corners(const Model& model, const std::vector<Vec3d>& normals, double crease_angle_degrees) {
+CornerGroups group_corners(const Model& model, const std::vector<Vec3d>& normals,
+                           double crease_angle_degrees) {
     constexpr std::size_t most_compared = 16;
     const double least_cosine =
         std::cos(std::clamp(crease_angle_degrees, 0.0, 180.0) * std::numbers::pi / 180);

@@ -17,11 +17,11 @@ constexpr double default_crease_angle_degrees = 40;
 // connected through smooth neighbours share a normal, the sum of their face normals weighted by the angle at
 // the corner (Thuermer and Wuethrich 1998), which does not depend on how the surface is cut into triangles. A
 // vertex used by corners of several such groups is split: copies with equal other attributes are appended to
-// the vertices. Triangles keep their order. A vertex with triangles of no area only, or with none at all, gets
-// (0, 0, 1).
+// the vertices. Triangles keep their order. A vertex with triangles of no area only, or with none at all,
+// gets (0, 0, 1).
 //
-// An edge shared by n triangles compares each with the 16 before it only, so that the time stays O(n log n) in
-// the size of the model for any input.
+// An edge shared by n triangles compares each with the 16 before it only, so that the time stays O(n log n)
+// in the size of the model for any input.
 void compute_normals(Model& model, double crease_angle_degrees = default_crease_angle_degrees);
 
 } // namespace spa

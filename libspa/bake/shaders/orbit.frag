@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The centre pixel of one view: where the camera's axis meets the triangle that the rasteriser found there.
 
-// Stages: OUTERMOST stores the fragment of largest radius. FIND stores the largest radius below the one found
-// before (depth peeling), PICK then the crossing of the first triangle within merge_distance of that radius.
-// The depth buffer holds radii, with GL_GREATER; triangles are drawn in the order of their indices, so of equals
-// the first wins.
+// The depth buffer holds radii, with GL_GREATER: of several fragments the outermost stays. Triangles are drawn in
+// the order of their indices, so of equals the first stays. Depth peeling takes the crossings of a view one by one: each
+// round keeps only fragments below what the round before found. That is exact, because a triangle's radius in a
+// view is the same bits every time.
 
 struct Material {
     vec4 base_color;
@@ -17,18 +17,14 @@ struct Material {
 layout(std430, binding = 3) readonly buffer MaterialBuffer { Material materials[]; };
 
 layout(binding = 0) uniform sampler2D base_color_texture;
-layout(binding = 1) uniform sampler2D found_radius; // FIND: of the previous round; PICK: of this one
+layout(binding = 1) uniform sampler2D found_radius; // depth buffer of the round before
 layout(location = 4) uniform uint first_round;
 
 flat in uint item;
 flat in uint camera;
 
-#ifndef FIND
 layout(location = 0) out uvec4 surface_out; // radius bits, triangle, packed sRGB colour, 1
 layout(location = 1) out uvec4 normal_out;  // xyz bits, facing
-#endif
-
-const float merge_distance = 1e-6;
 
 dvec3 corner(uint k) {
     uint i = 3u * k;
@@ -74,15 +70,7 @@ void main() {
     float radius = min(float(r), 1.0);
     if (!(radius > 0.0)) discard;
 
-#ifndef OUTERMOST
-    float found = texelFetch(found_radius, ivec2(gl_FragCoord.xy), 0).r;
-#endif
-#ifdef FIND
-    if (first_round == 0u && !(found - radius >= merge_distance)) discard;
-#endif
-#ifdef PICK
-    if (!(abs(found - radius) < merge_distance)) discard;
-#endif
+    if (first_round == 0u && !(radius < texelFetch(found_radius, ivec2(gl_FragCoord.xy), 0).r)) discard;
 
     dvec3 q = r * u - a;
     double area2 = dot(plane, plane);
@@ -117,12 +105,7 @@ void main() {
         if (alpha == 0u) discard;
     }
 
-#ifdef PICK
-    gl_FragDepth = 1.0;
-#else
     gl_FragDepth = radius;
-#endif
-#ifndef FIND
     dvec3 n = wa * corner_normal(0u) + wb * corner_normal(1u) + wc * corner_normal(2u);
     double n2 = dot(n, n);
     // Without a normal, the plane's, on the triangle's front.
@@ -136,5 +119,4 @@ void main() {
                             to_code(to_srgb(color.b)) << 16 | alpha << 24,
                         1u);
     normal_out = uvec4(floatBitsToUint(unit), facing);
-#endif
 }

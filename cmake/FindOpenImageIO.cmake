@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+# OpenImageIO::OpenImageIO from the header and the libraries alone. Debian's own CMake package of it asks for
+# OpenCV's headers, OpenImageIO's programs and the Python bindings of Imath, none of which is needed here.
+find_path(OpenImageIO_INCLUDE_DIR OpenImageIO/imageio.h)
+find_library(OpenImageIO_LIBRARY OpenImageIO)
+find_library(OpenImageIO_UTIL_LIBRARY OpenImageIO_Util)
+mark_as_advanced(OpenImageIO_INCLUDE_DIR OpenImageIO_LIBRARY OpenImageIO_UTIL_LIBRARY)
+
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(OpenImageIO
+  REQUIRED_VARS OpenImageIO_LIBRARY OpenImageIO_UTIL_LIBRARY OpenImageIO_INCLUDE_DIR)
+
+if(OpenImageIO_FOUND AND NOT TARGET OpenImageIO::OpenImageIO)
+  add_library(OpenImageIO::OpenImageIO INTERFACE IMPORTED)
+  target_include_directories(OpenImageIO::OpenImageIO INTERFACE ${OpenImageIO_INCLUDE_DIR})
+  target_link_libraries(OpenImageIO::OpenImageIO INTERFACE ${OpenImageIO_LIBRARY}
+    ${OpenImageIO_UTIL_LIBRARY})
+endif()

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// read_gltf: 1. split the container, 2. check the document, 3. read the buffers, 4. let tinygltf build its
+// model of the rest, 5. flatten the scene, 6. append every primitive of every instance.
+//
+// tinygltf gets the document without buffers, images and what a bake has no use for: their bytes stay where
+// they were read to, nothing is copied, and no reference is opened but by Buffers and Images.
+#include "gltf_check.h"
+#include "gltf_check_values.h"
+#include "gltf_container.h"
+#include "gltf_primitive.h"
+#include "readers.h"
+
+#include <limits>
+#include <optional>
+
+namespace spa::import {
+namespace gltf {
+namespace {
+
+Json parse_json(std::string_view text, const Context& context) {
+    try {
+        return Json::parse(text);
+    } catch (const Json::parse_error& error) {
+        // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
+        const std::string_view message = error.what();
+        const std::size_t end = message.find("] ");
+        fail(context, "JSON", std::string(end == std::string_view::npos ? message : message.substr(end + 2)));
+    }
+}
+
+void check_document(Json& document, const Context& context) {
+    check_schema(document, context);
+    check_asset(document, context);
+    check_buffer_views(document, context);
+    check_accessors(document, context);
+    check_images(document, context);
+    check_meshes(document, context);
+    check_skins(document, context);
+    check_nodes(document, context);
+    check_scenes(document, context);
+    check_animations(document, context);
+}
+
+// tinygltf's model of what is left in the document. Takes out what tinygltf would open, decode or stumble
+// over: indices of Draco primitives have no buffer view, which it refuses.
+tinygltf::Model build_model(Json& document, const Context& context) {
+    for (const char* key : {"buffers", "cameras", "extensions", "extras"}) document.erase(key);
+    Json animations = std::move(document["animations"]);
+    document.erase("animations");
+    if (document.contains("meshes"))
+        for (Json& mesh : document["meshes"])
+            for (Json& primitive : mesh["primitives"])
+                if (member_of(primitive, "extensions").contains("KHR_draco_mesh_compression")) primitive.erase("indices");
+
+    const std::string text = document.dump();
+    document = Json::object();
+    if (!animations.is_null()) document["animations"] = std::move(animations);
+    if (text.size() > std::numeric_limits<unsigned>::max()) fail(context, "JSON", "is longer than 4 GiB");
+    tinygltf::TinyGLTF loader;
+    loader.SetFsCallbacks({nullptr, nullptr, nullptr, nullptr, nullptr});
+    loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
+                             void*) { return true; },
+                          nullptr);
+    tinygltf::Model model;
+    std::string errors, warnings;
+    if (!loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()), "",
+                                    tinygltf::NO_REQUIRE))
+        fail(context, "", errors);
+    return model;
+}
+
+// Holds the flattened scene against the limits before anything is allocated for it.
+Size total_size(const tinygltf::Model& model, const std::vector<Instance>& instances, const Context& context) {
+    Size total;
+    for (const Instance& instance : instances)
+        for (const tinygltf::Primitive& primitive :
+             model.meshes[static_cast<std::size_t>(model.nodes[instance.node].mesh)].primitives) {
+            if (!is_drawn(primitive)) continue;
+            const Size size = size_of(model, primitive);
+            total.vertices += size.vertices;
+            total.triangles += size.triangles;
+            if (total.vertices > context.limits.vertices)
+                fail(context, "", "the scene has more vertices than the limit of " +
+                                      std::to_string(context.limits.vertices));
+            if (total.triangles > context.limits.triangles)
+                fail(context, "", "the scene has more triangles than the limit of " +
+                                      std::to_string(context.limits.triangles));
+        }
+    return total;
+}
+
+std::string nothing_to_bake(const tinygltf::Model& model, const std::vector<Instance>& instances,
+                            const Report& report) {
+    if (model.meshes.empty()) return "the file has no meshes";
+    if (instances.empty()) return "no node of the scene has a mesh";
+    std::string why = "no triangle is left";
+    if (report.ignored_primitives != 0)
+        why += ", " + std::to_string(report.ignored_primitives) + " primitives are points or lines";
+    if (report.dropped_degenerate != 0)
+        why += ", " + std::to_string(report.dropped_degenerate) + " triangles have no area";
+    if (report.dropped_non_finite != 0)
+        why += ", " + std::to_string(report.dropped_non_finite) + " triangles have corners that are not finite";
+    return why;
+}
+
+void assemble(const tinygltf::Model& model, Buffers& buffers, Images& images, const Context& context, Model& out) {
+    const std::vector<Instance> instances = flatten_scene(model, buffers, context);
+    const Size total = total_size(model, instances, context);
+    std::vector<bool> used(model.materials.size());
+    bool any_colors = false;
+    for (const Instance& instance : instances)
+        for (const tinygltf::Primitive& primitive :
+             model.meshes[static_cast<std::size_t>(model.nodes[instance.node].mesh)].primitives) {
+            if (!is_drawn(primitive)) continue;
+            if (primitive.material >= 0) used[static_cast<std::size_t>(primitive.material)] = true;
+            any_colors = any_colors || primitive.attributes.count("COLOR_0") != 0;
+        }
+    Materials materials(model, used, images, out, context);
+    out.positions.reserve(total.vertices);
+    out.normals.reserve(total.vertices);
+    out.triangles.reserve(total.triangles);
+    out.triangle_materials.reserve(total.triangles);
+    if (!out.textures.empty()) out.uvs.reserve(total.vertices);
+    if (any_colors) out.colors.reserve(total.vertices);
+
+    Assembly assembly{model, buffers, materials, out, context, global_transforms(model), {}, {}};
+    for (const Instance& instance : instances) {
+        const tinygltf::Mesh& mesh = model.meshes[static_cast<std::size_t>(model.nodes[instance.node].mesh)];
+        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+            if (is_drawn(mesh.primitives[i]))
+                append_primitive(assembly, instance, i);
+            else
+                ++context.report.ignored_primitives;
+        }
+    }
+    if (context.report.dropped_non_finite != 0)
+        warn(context, "", std::to_string(context.report.dropped_non_finite) +
+                              " triangles have corners that are not finite and are left out");
+    if (out.triangles.empty())
+        fail(context, "", "nothing to bake: " + nothing_to_bake(model, instances, context.report));
+    if (!out.uvs.empty()) out.uvs.resize(out.positions.size());
+    if (!out.colors.empty()) out.colors.resize(out.positions.size(), {1, 1, 1, 1});
+    if (out.materials.empty()) (void)materials.default_material();
+}
+
+void read(const std::filesystem::path& path, const Limits& limits, Result& result) {
+    const Context context{path, limits, result.report};
+    const std::vector<std::byte> file = read_file(path, limits);
+    add_source(result.report, path.filename().string(), file);
+    const Container container = split_container(file, context);
+    result.report.format = container.binary ? "GLB" : "glTF";
+    Json document = parse_json(container.json, context);
+    check_document(document, context);
+    Buffers buffers(document, container, context);
+    Images images(document, buffers, context);
+    const tinygltf::Model model = build_model(document, context);
+    std::optional<Error> error;
+    try {
+        assemble(model, buffers, images, context, result.model);
+    } catch (const Error& caught) {
+        error = caught;
+    }
+    // After the assembly: its errors matter more than these warnings, which help to explain them.
+    check_bounds(model, buffers, context);
+    check_colors(model, buffers, context);
+    check_animation_times(document, model, buffers, context);
+    images.check_unused();
+    if (error) throw Error(*error);
+}
+
+} // namespace
+} // namespace gltf
+
+Result read_gltf(const std::filesystem::path& path, const Limits& limits) {
+    Result result;
+    try {
+        gltf::read(path, limits, result);
+    } catch (const Error& error) {
+        // What was noticed on the way is often the cause.
+        if (error.code() != ExitCode::invalid_data || result.report.warnings.empty()) throw;
+        std::string message = error.what();
+        constexpr std::size_t most = 4;
+        for (std::size_t i = 0; i < result.report.warnings.size() && i < most; ++i)
+            message += (i == 0 ? " (also: " : "; ") + result.report.warnings[i];
+        throw Error(error.code(), message + ")");
+    }
+    return result;
+}
+
+} // namespace spa::import

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every step of the glTF reader is given, and how it reports.
+#pragma once
+
+#include "../../libspa/core/error.h"
+#include "import.h"
+#include "source_file.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace spa::import::gltf {
+
+struct Context {
+    const std::filesystem::path& path; // of the asset
+    const Limits& limits;
+    Report& report;
+};
+
+// `where` is the place in the document, as in "accessors[3].bufferView"; may be empty.
+[[noreturn]] inline void fail(const Context& context, const std::string& where, const std::string& what) {
+    throw Error(ExitCode::invalid_data,
+                context.path.string() + ": " + (where.empty() ? "" : where + ": ") + what);
+}
+
+inline void warn(const Context& context, const std::string& where, const std::string& what) {
+    add_warning(context.report, (where.empty() ? "" : where + ": ") + what);
+}
+
+// "accessors[3]"
+inline std::string at(std::string_view array, std::size_t index) {
+    return std::string(array) + "[" + std::to_string(index) + "]";
+}
+
+} // namespace spa::import::gltf

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The images of a document: read and decoded when a base colour needs them, each once.
+#pragma once
+
+#include "gltf_buffers.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace spa::import::gltf {
+
+class Images {
+public:
+    // Takes the images out of `document`. The references passed check_images.
+    Images(Json& document, Buffers& buffers, const Context& context);
+
+    // The index in model.textures of a decoded image. Throws Error for a missing file and for what cannot be
+    // decoded.
+    std::uint32_t texture(std::size_t image, Model& model);
+
+    // Warns of images that are missing or no pictures, although no base colour needs them.
+    void check_unused();
+
+private:
+    struct Entry {
+        std::string uri; // empty: in a buffer view
+        std::size_t view = 0;
+        std::string name;
+        bool used = false;
+    };
+    Buffers& buffers_;
+    Context context_;
+    std::vector<Entry> entries_;
+    std::map<std::string, std::uint32_t> textures_; // by file name or place in the document
+};
+
+} // namespace spa::import::gltf

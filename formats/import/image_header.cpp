@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image_header.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace spa::import {
+namespace {
+
+bool starts_with(std::span<const std::byte> bytes, std::string_view signature, std::size_t offset = 0) {
+    if (bytes.size() < offset || bytes.size() - offset < signature.size()) return false;
+    return std::equal(signature.begin(), signature.end(), bytes.begin() + static_cast<std::ptrdiff_t>(offset),
+                      [](char a, std::byte b) { return static_cast<std::byte>(a) == b; });
+}
+
+std::uint64_t big_endian(std::span<const std::byte> bytes, std::size_t offset, std::size_t count) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < count; ++i) value = value << 8U | std::to_integer<unsigned>(bytes[offset + i]);
+    return value;
+}
+
+// Signature, then the IHDR chunk: length, "IHDR", width, height, bit depth, colour type (PNG, 11.2.2).
+ImageHeader png_header(std::span<const std::byte> bytes) {
+    if (bytes.size() < 26 || !starts_with(bytes, "IHDR", 12)) return {};
+    constexpr std::array<std::uint64_t, 7> channels{1, 0, 3, 1, 2, 0, 4}; // by colour type
+    const std::uint64_t color_type = big_endian(bytes, 25, 1);
+    const std::uint64_t depth = big_endian(bytes, 24, 1);
+    const std::uint64_t count = color_type < channels.size() ? channels[color_type] : 0;
+    return {big_endian(bytes, 16, 4), big_endian(bytes, 20, 4), depth * count};
+}
+
+// Walks the marker segments to the first frame header, SOF0..SOF15 without DHT, JPG and DAC (ITU T.81, B.2).
+ImageHeader jpeg_header(std::span<const std::byte> bytes) {
+    std::size_t at = 2;
+    while (at + 4 <= bytes.size()) {
+        if (bytes[at] != std::byte{0xFF}) {
+            ++at; // decoders skip garbage between segments
+            continue;
+        }
+        const auto marker = std::to_integer<unsigned>(bytes[at + 1]);
+        const bool stands_alone = marker == 0xFF || marker == 0x00 || marker == 0x01 ||
+                                  (marker >= 0xD0 && marker <= 0xD8);
+        if (stands_alone) {
+            at += marker == 0xFF ? 1 : 2;
+            continue;
+        }
+        if (marker == 0xD9 || marker == 0xDA) return {};
+        const std::uint64_t length = big_endian(bytes, at + 2, 2);
+        const bool frame = marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+        if (frame) {
+            if (bytes.size() - at < 9) return {};
+            return {big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2), 0};
+        }
+        at += 2 + std::max<std::uint64_t>(length, 2);
+    }
+    return {};
+}
+
+} // namespace
+
+ImageKind image_kind(std::span<const std::byte> bytes) {
+    using std::string_view_literals::operator""sv;
+    struct Row {
+        std::string_view signature;
+        ImageKind kind;
+    };
+    constexpr std::array rows{
+        Row{"\x89PNG\r\n\x1A\n"sv, ImageKind::png},
+        Row{"\xFF\xD8\xFF"sv, ImageKind::jpeg},
+        Row{"GIF8"sv, ImageKind::gif},
+        Row{"BM"sv, ImageKind::bmp},
+        Row{"II*\0"sv, ImageKind::tiff},
+        Row{"MM\0*"sv, ImageKind::tiff},
+        Row{"8BPS"sv, ImageKind::psd},
+        Row{"DDS "sv, ImageKind::dds},
+        Row{"#?"sv, ImageKind::hdr},
+        Row{"\x76\x2F\x31\x01"sv, ImageKind::exr},
+        Row{"\xABKTX "sv, ImageKind::ktx},
+    };
+    for (const Row& row : rows)
+        if (starts_with(bytes, row.signature)) return row.kind;
+    if (starts_with(bytes, "RIFF") && starts_with(bytes, "WEBP", 8)) return ImageKind::webp;
+    return ImageKind::unknown;
+}
+
+ImageHeader read_image_header(std::span<const std::byte> bytes) {
+    switch (image_kind(bytes)) {
+    case ImageKind::png: return png_header(bytes);
+    case ImageKind::jpeg: return jpeg_header(bytes);
+    default: return {};
+    }
+}
+
+} // namespace spa::import

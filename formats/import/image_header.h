@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the first bytes of a picture say, read without a decoder: decoders allocate what a header claims, so
+// the claims are judged before a decoder sees them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace spa::import {
+
+enum class ImageKind { unknown, png, jpeg, gif, bmp, tiff, webp, psd, dds, hdr, exr, ktx };
+
+// By signature. TGA has none: unknown.
+ImageKind image_kind(std::span<const std::byte> bytes);
+
+struct ImageHeader {
+    std::uint64_t width = 0, height = 0; // 0: not found
+    std::uint64_t pixel_bits = 0;        // of a stored pixel; PNG only
+};
+
+// The size that a PNG or JPEG claims; width 0 for other kinds and for what holds no valid header.
+ImageHeader read_image_header(std::span<const std::byte> bytes);
+
+} // namespace spa::import

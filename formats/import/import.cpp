@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which reader a file is for: its first bytes decide, the extension only where they do not.
+#include "import.h"
+
+#include "../../libspa/core/error.h"
+#include "readers.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+
+namespace spa::import {
+namespace {
+
+using Reader = Result (*)(const std::filesystem::path&, const Limits&);
+
+constexpr std::size_t binary_stl_header = 84; // 80 bytes of text and the number of triangles
+constexpr std::size_t binary_stl_triangle = 50;
+
+bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
+
+// The size that a binary STL of this head would have; 0 if it is none.
+std::uint64_t binary_stl_size(std::string_view head) {
+    if (head.size() < binary_stl_header) return 0;
+    std::uint32_t triangles = 0;
+    std::memcpy(&triangles, head.data() + 80, sizeof triangles);
+    return binary_stl_header + std::uint64_t{binary_stl_triangle} * triangles;
+}
+
+// The first word: up to white space.
+std::string_view first_word(std::string_view text) {
+    const auto end = std::find_if(text.begin(), text.end(), is_space);
+    return text.substr(0, static_cast<std::size_t>(end - text.begin()));
+}
+
+Reader reader_by_content(std::string_view head, std::uint64_t file_size) {
+    if (head.substr(0, 4) == "glTF") return read_gltf;
+    if (binary_stl_size(head) == file_size && file_size > binary_stl_header) return read_stl;
+    if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
+    while (!head.empty() && is_space(head.front())) head.remove_prefix(1);
+    if (head.empty()) return nullptr;
+    if (head.front() == '{') return read_gltf;
+    const std::string_view word = first_word(head);
+    if (word == "ply") return read_ply;
+    if (word == "solid") return read_stl;
+    // Geomview's prefixes in their order: texture, colour, normal, fourth coordinate, dimension.
+    constexpr std::string_view prefixes[] = {"ST", "C", "N", "4", "n"};
+    std::string_view keyword = word;
+    for (const std::string_view prefix : prefixes)
+        if (keyword.substr(0, prefix.size()) == prefix) keyword.remove_prefix(prefix.size());
+    if (keyword == "OFF") return read_off;
+    return nullptr;
+}
+
+Reader reader_by_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    struct Row {
+        std::string_view extension;
+        Reader reader;
+    };
+    constexpr Row rows[] = {{".gltf", read_gltf}, {".glb", read_gltf}, {".obj", read_obj},
+                            {".ply", read_ply},   {".stl", read_stl},  {".off", read_off}};
+    for (const Row& row : rows)
+        if (row.extension == extension) return row.reader;
+    return nullptr;
+}
+
+} // namespace
+
+Result read_model(const std::filesystem::path& path, const Limits& limits) {
+    std::error_code code;
+    const std::filesystem::file_status status = std::filesystem::status(path, code);
+    if (!std::filesystem::exists(status))
+        throw Error(ExitCode::input_output, path.string() + ": no such file; check the path");
+    if (!std::filesystem::is_regular_file(status))
+        throw Error(ExitCode::input_output, path.string() + ": not a regular file");
+    const std::uint64_t size = std::filesystem::file_size(path, code);
+    std::ifstream file(path, std::ios::binary);
+    if (code || !file)
+        throw Error(ExitCode::input_output, path.string() + ": cannot be opened; check its permissions");
+    std::string head(512, '\0');
+    file.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(file.gcount()));
+    file.close();
+
+    Reader reader = reader_by_content(head, size);
+    if (reader == nullptr) reader = reader_by_extension(path);
+    if (reader == nullptr)
+        throw Error(ExitCode::invalid_data, path.string() + ": neither the content nor the extension is that "
+                                                            "of glTF, GLB, OBJ, PLY, STL or OFF");
+    return reader(path, limits);
+}
+
+} // namespace spa::import

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "arguments.h"
+
+#include <charconv>
+
+namespace spa::tools {
+
+CLI::Option* add_text(CLI::App& app, const std::string& names, const std::string& value_name,
+                      const std::string& description, std::function<void(const std::string&)> set) {
+    return app.add_option_function<std::string>(names, set, description)->type_name(value_name);
+}
+
+CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& value_name,
+                      const std::string& description, std::filesystem::path& path) {
+    return add_text(app, names, value_name, description, [&path](const std::string& text) { path = text; });
+}
+
+std::uint32_t parse_number(const std::string& option, const std::string& text, std::uint32_t lowest,
+                           std::uint32_t highest) {
+    std::uint32_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || stopped != end || value < lowest || value > highest)
+        throw Error(ExitCode::usage, option + ": '" + text + "' is not a whole number from " +
+                                         std::to_string(lowest) + " to " + std::to_string(highest));
+    return value;
+}
+
+const char* name(ReportFormat format) { return format == ReportFormat::json ? "json" : "text"; }
+
+CLI::Option* add_report_format(CLI::App& app, ReportFormat& format) {
+    return add_choice<ReportFormat>(app, "--format", {ReportFormat::text, ReportFormat::json},
+                                    "Report on standard output as text for people or as JSON",
+                                    [&format](ReportFormat given) { format = given; })
+        ->default_str("text");
+}
+
+std::string json_text(const nlohmann::ordered_json& json) {
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+} // namespace spa::tools

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake_report.h"
+
+#include "text.h"
+
+namespace spa::tools {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json source_json(const BakeFacts& facts) {
+    const import::Report& report = facts.source.report;
+    Json files = Json::array();
+    for (const import::SourceFile& file : report.files)
+        files.push_back({{"name", file.name}, {"bytes", file.bytes}, {"xxh3", hex64(file.xxh3)}});
+    const import::SourceFile& asset = report.files.front();
+    return {
+        {"name", asset.name},
+        {"format", report.format},
+        {"xxh3", hex64(asset.xxh3)},
+        {"bytes", asset.bytes},
+        {"files", files},
+        {"vertices", facts.source.model.positions.size()},
+        {"triangles", facts.source.model.triangles.size()},
+        {"materials", facts.source.model.materials.size()},
+        {"textures", facts.source.model.textures.size()},
+    };
+}
+
+Json layers_json(const bake::Report& bake) {
+    Json layers = Json::array();
+    for (const bake::LayerReport& layer : bake.layers)
+        layers.push_back(
+            {{"outer_coverage", layer.outer_coverage}, {"inner_coverage", layer.inner_coverage}});
+    return layers;
+}
+
+// The counts; without what depends on the machine.
+Json counts_json(const BakeFacts& facts) {
+    const import::Report& source = facts.source.report;
+    const bake::Report& bake = facts.bake;
+    return {
+        {"triangles", bake.triangles},
+        {"components", bake.components},
+        {"open_edges", bake.open_edges},
+        {"edge_on_triangles", bake.edge_on_triangles},
+        {"unseen_components", bake.unseen_components},
+        {"back_facing_samples", bake.back_facing_samples},
+        {"thin_samples", bake.thin_samples},
+        {"truncated_samples", bake.truncated_samples},
+        {"center_on_surface", bake.center_on_surface},
+        {"center_inside", bake.center_inside},
+        {"layers", layers_json(bake)},
+        {"dropped_degenerate", source.dropped_degenerate},
+        {"dropped_non_finite", source.dropped_non_finite},
+        {"ignored_primitives", source.ignored_primitives},
+        {"computed_normals", source.computed_normals},
+    };
+}
+
+// Messages begin with the path as it was given; in a file only the name may appear.
+std::string without_folder(std::string message, const std::filesystem::path& path) {
+    const std::string full = path.string(), name = path.filename().string();
+    for (std::size_t at = message.find(full); at != std::string::npos;
+         at = message.find(full, at + name.size()))
+        message.replace(at, full.size(), name);
+    return message;
+}
+
+std::string line(const char* label, const std::string& text) { return pad_right(label, 10) + text + "\n"; }
+
+std::string grid_text(const Grid& grid) {
+    return std::to_string(grid.width) + "x" + std::to_string(grid.height);
+}
+
+std::string options_text(const bake::Options& options) {
+    std::string text = std::string(name(options.grid.mapping)) + " " + size_text(options.grid);
+    if (options.grid.mapping == Mapping::octahedral) text += " (" + grid_text(options.grid) + " samples)";
+    if (options.color_grid != options.grid) text += ", colour " + size_text(options.color_grid);
+    text += std::string(", depth ") + name(options.depth) + ", normals " + name(options.normals);
+    return text + ", " + name(options.baker) + " baker";
+}
+
+std::string mesh_text(const bake::Report& bake) {
+    std::string text = std::to_string(bake.components) + (bake.components == 1 ? " piece" : " pieces");
+    text += bake.open_edges == 0 ? ", watertight" : ", " + std::to_string(bake.open_edges) + " open edges";
+    return text + (bake.center_inside ? ", centre inside the solid" : ", centre outside the solid");
+}
+
+} // namespace
+
+std::string metadata(const BakeFacts& facts) {
+    Json report = counts_json(facts);
+    Json messages = Json::array();
+    for (const std::string& warning : warnings(facts))
+        messages.push_back(without_folder(warning, facts.arguments.input));
+    report["warnings"] = messages;
+    const Json json = {
+        {"generator", {{"name", "spa"}, {"version", SPA_VERSION}}},
+        {"source", source_json(facts)},
+        {"options", options_json(facts.arguments)},
+        {"report", report},
+        {"units", "object"},
+    };
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<std::string> warnings(const BakeFacts& facts) {
+    std::vector<std::string> all = facts.source.report.warnings;
+    all.insert(all.end(), facts.bake.warnings.begin(), facts.bake.warnings.end());
+    return all;
+}
+
+Json report_json(const BakeFacts& facts, Json output, double seconds) {
+    Json report = counts_json(facts);
+    if (!facts.bake.gl.empty()) report["gl"] = facts.bake.gl;
+    report["warnings"] = warnings(facts);
+    return {
+        {"source", source_json(facts)},
+        {"options", options_json(facts.arguments)},
+        {"report", report},
+        {"output", std::move(output)},
+        {"seconds", seconds},
+    };
+}
+
+std::string report_text(const BakeFacts& facts, std::uint64_t output_bytes, double seconds) {
+    const import::Report& source = facts.source.report;
+    const bake::Report& bake = facts.bake;
+    std::string text = facts.arguments.output.string() + "\n";
+    text += line("source", source.files.front().name + ", " + source.format + ", " +
+                               std::to_string(facts.source.model.positions.size()) + " vertices, " +
+                               std::to_string(bake.triangles) + " triangles");
+    text += line("mesh", mesh_text(bake));
+    text += line("map", options_text(facts.arguments.options));
+    if (!bake.gl.empty()) text += line("gl", bake.gl);
+    for (std::size_t i = 0; i < bake.layers.size(); ++i)
+        text += line(i == 0 ? "layers" : "",
+                     std::to_string(i) + ": outer surface in " + percent(bake.layers[i].outer_coverage) +
+                         " of all directions, inner in " + percent(bake.layers[i].inner_coverage));
+    text += line("bytes", std::to_string(output_bytes) + " (" + byte_count(output_bytes) + ")");
+    return text + line("time", fixed(seconds, 2) + " s");
+}
+
+} // namespace spa::tools

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "interrupt.h"
+#include "output.h"
+#include "verb.h"
+
+#include "../libspa/bake/crossings.h"
+#include "../libspa/core/error.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <iostream>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace spa::tools {
+
+namespace {
+
+int run_verb(const Verb& verb, const std::vector<std::string>& arguments) {
+    CLI::App app;
+    app.allow_windows_style_options(false);
+    app.set_help_flag("-h,--help", "Show this page");
+    const std::function<void()> run = verb.define(app);
+    try {
+        // CLI11 takes them last first.
+        app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    } catch (const CLI::CallForHelp&) {
+        print(manual_page(verb));
+        return int(ExitCode::ok);
+    } catch (const CLI::ParseError& error) {
+        throw Error(ExitCode::usage, error.what());
+    }
+    run();
+    return int(ExitCode::ok);
+}
+
+// The number of single-letter edits between two words (Levenshtein 1966), to guess what was meant.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+Error unknown_verb(const std::string& given) {
+    std::string message = "there is no verb '" + given + "'";
+    for (const Verb& verb : verbs())
+        if (edit_distance(given, verb.name) <= 2)
+            message += "; did you mean '" + std::string(verb.name) + "'?";
+    return {ExitCode::usage, message};
+}
+
+// hint: what to read about a usage error, once it is known which verb was meant.
+int dispatch(const std::vector<std::string>& arguments, std::string& hint) {
+    hint = "spa help";
+    if (arguments.empty()) {
+        std::cerr << manual_page();
+        return int(ExitCode::usage);
+    }
+    const std::string& first = arguments.front();
+    if (first == "--version") {
+        print("spa " SPA_VERSION "\n");
+        return int(ExitCode::ok);
+    }
+    if (first == "--help" || first == "-h") {
+        print(manual_page());
+        return int(ExitCode::ok);
+    }
+    const Verb* verb = find_verb(first);
+    if (verb == nullptr) throw unknown_verb(first);
+    hint = "spa help " + first;
+    return run_verb(*verb, {arguments.begin() + 1, arguments.end()});
+}
+
+int run(const std::vector<std::string>& arguments) {
+    std::string hint;
+    try {
+        return dispatch(arguments, hint);
+    } catch (const Error& error) {
+        std::cerr << "spa: " << error.what() << '\n';
+        if (error.code() == ExitCode::usage) std::cerr << "spa: see '" << hint << "'\n";
+        return int(error.code());
+    } catch (const bake::Cancelled&) {
+        std::cerr << "spa: interrupted; nothing was written\n";
+        // The caller (a shell, make) is to see the signal, not a code that looks like a failure.
+        const int number = interrupt_signal();
+        if (number != 0) {
+            static_cast<void>(std::signal(number, SIG_DFL));
+            static_cast<void>(std::raise(number));
+        }
+        return 130;
+    } catch (const std::bad_alloc&) {
+        std::cerr << "spa: out of memory; bake smaller maps or fewer layers\n";
+        return int(ExitCode::unsupported);
+    } catch (const std::exception& error) {
+        std::cerr << "spa: internal error: " << error.what() << "; please report it with the command line\n";
+        return int(ExitCode::internal);
+    }
+}
+
+} // namespace
+
+} // namespace spa::tools
+
+int main(int argc, char** argv) {
+    try {
+        return spa::tools::run({argv + std::min(argc, 1), argv + argc});
+    } catch (...) {
+        return int(spa::ExitCode::internal);
+    }
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "map_file.h"
+
+#include "../libspa/core/error.h"
+
+#include <cstdio>
+
+namespace spa::tools {
+
+namespace {
+
+container::Status read_standard_input(container::File& file) {
+    const container::ReadExactly read_exactly = [](std::span<std::byte> out) {
+        return std::fread(out.data(), 1, out.size(), stdin) == out.size();
+    };
+    container::Status status = container::read(read_exactly, file);
+    // The reader stops at the end that the file itself states.
+    if (status.ok() && std::fgetc(stdin) != EOF) {
+        status.issue = container::Issue::file_too_long;
+        status.offset = file.length();
+    }
+    return status;
+}
+
+} // namespace
+
+void require(const container::Status& status, const std::string& file_name) {
+    if (!status.ok()) throw Error(container::exit_code(status.issue), container::describe(status, file_name));
+}
+
+MapFile open_map(const std::string& path) {
+    MapFile result{path, {}};
+    if (path == "-")
+        require(read_standard_input(result.file), "standard input");
+    else
+        require(container::open(path, result.file), path);
+    return result;
+}
+
+nlohmann::ordered_json parse_metadata(const SphericalMap& map) {
+    if (map.metadata.empty()) return nullptr;
+    return nlohmann::ordered_json::parse(map.metadata);
+}
+
+} // namespace spa::tools

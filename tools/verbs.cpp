@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "verb.h"
+
+#include <algorithm>
+#include <array>
+
+namespace spa::tools {
+
+Verb bake_verb();
+Verb inspect_verb();
+Verb extract_verb();
+Verb sample_verb();
+Verb help_verb();
+
+std::span<const Verb> verbs() {
+    static const std::array table{bake_verb(), inspect_verb(), extract_verb(), sample_verb(), help_verb()};
+    return table;
+}
+
+const Verb* find_verb(std::string_view name) {
+    const auto all = verbs();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Verb& v) { return v.name == name; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+} // namespace spa::tools
