@@ -6,7 +6,7 @@
 namespace spa::tools {
 
 CLI::Option* add_text(CLI::App& app, const std::string& names, const std::string& value_name,
-                      const std::string& description, std::function<void(const std::string&)> set) {
+                      const std::string& description, const std::function<void(const std::string&)>& set) {
     return app.add_option_function<std::string>(names, set, description)->type_name(value_name);
 }
 

@@ -19,7 +19,7 @@ namespace spa::tools {
 
 // names: as in CLI11, such as "-o,--output" or "IN". value_name: how help calls the value.
 CLI::Option* add_text(CLI::App& app, const std::string& names, const std::string& value_name,
-                      const std::string& description, std::function<void(const std::string&)> set);
+                      const std::string& description, const std::function<void(const std::string&)>& set);
 
 CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& value_name,
                       const std::string& description, std::filesystem::path& path);

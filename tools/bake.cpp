@@ -24,6 +24,11 @@ void check_inputs(const BakeArguments& arguments, const import::Report& source) 
     check_output_file(arguments.output, inputs);
 }
 
+import::Result read_asset(const BakeArguments& arguments){
+    const SlowStep step("reading " + arguments.input.filename().string(), arguments.quiet);
+return import::read_model(arguments.input);
+} // namespace
+
 bake::Result bake_with_progress(const BakeArguments& arguments, const Model& model) {
     ProgressReport progress("baking " + arguments.input.filename().string(), arguments.quiet);
     return bake::bake_model(model, arguments.options, [&progress](double share) {
@@ -33,6 +38,7 @@ bake::Result bake_with_progress(const BakeArguments& arguments, const Model& mod
 }
 
 std::vector<std::byte> encode(const SphericalMap& map, const BakeArguments& arguments) {
+    const SlowStep step("writing " + arguments.output.filename().string(), arguments.quiet);
     container::WriteOptions options;
     options.compression = arguments.compress ? container::Compression::zstd : container::Compression::none;
     std::vector<std::byte> bytes;
@@ -52,7 +58,7 @@ nlohmann::ordered_json output_json(const BakeArguments& arguments, const std::ve
 void bake_asset(const BakeArguments& arguments) {
     const auto start = std::chrono::steady_clock::now();
     check_inputs(arguments, {});
-    const import::Result source = import::read_model(arguments.input);
+    const import::Result source = read_asset(arguments);
     check_inputs(arguments, source.report);
 
     bake::Result result;
@@ -77,7 +83,7 @@ void bake_asset(const BakeArguments& arguments) {
               : report_text(facts, bytes.size(), seconds));
 }
 
-} // namespace
+} // namespace spa::tools
 
 Verb bake_verb() {
     return {

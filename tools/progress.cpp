@@ -4,7 +4,9 @@
 #include "text.h"
 
 #include <algorithm>
+#include <condition_variable>
 #include <iostream>
+#include <mutex>
 #include <unistd.h>
 
 namespace spa::tools {
@@ -40,6 +42,22 @@ void ProgressReport::update(double share) {
         std::cerr << "spa: " << task_ << ": " << done << std::endl;
         next_ = now + line_every;
     }
+}
+
+SlowStep::SlowStep(const std::string& task, bool quiet) {
+    if (quiet) return;
+    thread_ = std::jthread([task](const std::stop_token& stop) {
+        const bool terminal = isatty(STDERR_FILENO) == 1;
+        std::mutex mutex;
+        std::condition_variable_any stopped;
+        std::unique_lock lock(mutex);
+        const auto never = [] { return false; };
+        stopped.wait_for(lock, stop, first_after, never);
+        if (stop.stop_requested()) return;
+        std::cerr << (terminal ? task + " ..." : "spa: " + task + "\n") << std::flush;
+        stopped.wait(lock, stop, never);
+        if (terminal) std::cerr << "\r\x1b[K" << std::flush;
+    });
 }
 
 } // namespace spa::tools

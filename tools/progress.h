@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <string>
+#include <thread>
 
 namespace spa::tools {
 
@@ -25,6 +26,16 @@ private:
     bool terminal_;
     bool bar_drawn_ = false;
     Clock::time_point next_; // nothing is written before
+};
+
+// For a step that cannot tell how far it is: while one lives, and after its first second, stderr says once
+// what goes on.
+class SlowStep {
+public:
+    SlowStep(const std::string& task, bool quiet);
+
+private:
+    std::jthread thread_; // its destructor asks it to stop and waits
 };
 
 } // namespace spa::tools

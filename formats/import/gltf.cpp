@@ -57,7 +57,6 @@ tinygltf::Model build_model(Json& document, const Context& context) {
     if (!animations.is_null()) document["animations"] = std::move(animations);
     if (text.size() > std::numeric_limits<unsigned>::max()) fail(context, "JSON", "is longer than 4 GiB");
     tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks({nullptr, nullptr, nullptr, nullptr, nullptr});
     loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
                              void*) { return true; },
                           nullptr);

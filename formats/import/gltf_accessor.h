@@ -3,12 +3,11 @@
 #pragma once
 
 #include "gltf_buffers.h"
+#include "tinygltf.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
-
-#include <tiny_gltf.h>
 
 namespace spa::import::gltf {
 

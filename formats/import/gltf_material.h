@@ -4,11 +4,10 @@
 #pragma once
 
 #include "gltf_images.h"
+#include "tinygltf.h"
 
 #include <cstdint>
 #include <vector>
-
-#include <tiny_gltf.h>
 
 namespace spa::import::gltf {
 

@@ -7,6 +7,8 @@
 #include "texture.h"
 
 #include <algorithm>
+#include <array>
+#include <tuple>
 
 namespace spa::import {
 namespace {

@@ -79,7 +79,9 @@ Candidates::Candidates(const Grid& grid, const std::vector<Vec3f>& positions)
       pad_(1e-3 + 2.5e-7 * std::max(grid.width, grid.height)) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), 4096), [&](const auto& range) {
         for (std::size_t v = range.begin(); v < range.end(); ++v) {
-            const Vec3d p = to_double(positions[v]);
+            // Adding 0 turns -0 into 0: the octant and the side of the fold must not depend on the sign of
+            // zero.
+            const Vec3d p = to_double(positions[v]) + Vec3d{};
             const bool polar = grid_.mapping == Mapping::latlong && p.x == 0 && p.z == 0;
             const Vec2d xy = position_of(grid_, p);
             mapped_[v] = {float(xy.x), float(xy.y), p == Vec3d{} || polar ? irregular : octant_of(p)};

@@ -44,7 +44,8 @@ std::vector<Platform> list_platforms() {
         EGLint count = 0;
         if (!query_devices(EGLint(devices.size()), devices.data(), &count)) count = 0;
         for (std::size_t i = 0; i < std::size_t(count); ++i) {
-            const bool software = has_extension(query_string(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software");
+            const bool software =
+                has_extension(query_string(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software");
             platforms.push_back({"EGL device " + std::to_string(i) + (software ? " (software)" : ""),
                                  EGL_PLATFORM_DEVICE_EXT, devices[i], software});
         }
@@ -52,8 +53,11 @@ std::vector<Platform> list_platforms() {
     if (has_extension(client, "EGL_MESA_platform_surfaceless")) {
         platforms.push_back({"EGL surfaceless", EGL_PLATFORM_SURFACELESS_MESA, nullptr, true});
     }
-    // The display of a software device is the slowest to fail where a driver is half installed: it comes last.
-    const auto rank = [](const Platform& p) { return p.kind != EGL_PLATFORM_DEVICE_EXT ? 1 : p.software ? 2 : 0; };
+    // The display of a software device is the slowest to fail where a driver is half installed: it comes
+    // last.
+    const auto rank = [](const Platform& p) {
+        return p.kind != EGL_PLATFORM_DEVICE_EXT ? 1 : p.software ? 2 : 0;
+    };
     std::stable_sort(platforms.begin(), platforms.end(),
                      [&](const Platform& a, const Platform& b) { return rank(a) < rank(b); });
     return platforms;
@@ -94,8 +98,8 @@ private:
         require(eglInitialize(display_, nullptr, nullptr) == EGL_TRUE, last_error("eglInitialize"));
         initialized_ = true;
         const char* extensions = eglQueryString(display_, EGL_EXTENSIONS);
-        for (const char* name : {"EGL_KHR_create_context", "EGL_KHR_no_config_context",
-                                 "EGL_KHR_surfaceless_context"}) {
+        for (const char* name :
+             {"EGL_KHR_create_context", "EGL_KHR_no_config_context", "EGL_KHR_surfaceless_context"}) {
             require(has_extension(extensions, name), std::string(name) + " is missing");
         }
         require(eglBindAPI(EGL_OPENGL_API) == EGL_TRUE, last_error("eglBindAPI(EGL_OPENGL_API)"));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The OpenGL 4.5 entry points that the orbit baker calls, as a plain table loaded from one context. A process
-// can hold EGL and OSMesa at once, whose functions of the same name differ, so nothing may bind to the symbols
-// of a library.
+// can hold EGL and OSMesa at once, whose functions of the same name differ, so nothing may bind to the
+// symbols of a library.
 #pragma once
 
 #include <GL/glcorearb.h>

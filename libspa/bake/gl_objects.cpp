@@ -35,7 +35,8 @@ GlObject compile(const GlFunctions& gl, GLenum stage, const std::string& source)
 } // namespace
 
 GlErrors::GlErrors(const GlFunctions& gl) : gl_(gl) {
-    while (gl.GetError() != GL_NO_ERROR) {}
+    while (gl.GetError() != GL_NO_ERROR) {
+    }
     gl.Enable(GL_DEBUG_OUTPUT);
     gl.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     gl.DebugMessageCallback(&GlErrors::receive, this);
@@ -103,7 +104,8 @@ GlObject make_vertex_array(const GlFunctions& gl) {
     return {gl, name, [](const GlFunctions& table, GLuint old) { table.DeleteVertexArrays(1, &old); }};
 }
 
-GlObject make_framebuffer(const GlFunctions& gl, std::span<const GlObject* const> colors, const GlObject& depth) {
+GlObject make_framebuffer(const GlFunctions& gl, std::span<const GlObject* const> colors,
+                          const GlObject& depth) {
     GLuint name = 0;
     gl.CreateFramebuffers(1, &name);
     GlObject framebuffer(gl, name,
@@ -119,7 +121,8 @@ GlObject make_framebuffer(const GlFunctions& gl, std::span<const GlObject* const
     gl.NamedFramebufferReadBuffer(name, attachments.front());
     const GLenum status = gl.CheckNamedFramebufferStatus(name, GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
-        throw Error(ExitCode::internal, "the orbit baker's framebuffer is not complete: " + hexadecimal(status));
+        throw Error(ExitCode::internal,
+                    "the orbit baker's framebuffer is not complete: " + hexadecimal(status));
     }
     return framebuffer;
 }

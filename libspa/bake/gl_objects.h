@@ -19,8 +19,8 @@ public:
     GlErrors(const GlErrors&) = delete;
     GlErrors& operator=(const GlErrors&) = delete;
 
-    // Throws Error if OpenGL has reported an error since the last call: unsupported when memory ran out, internal
-    // otherwise. `where` says after what.
+    // Throws Error if OpenGL has reported an error since the last call: unsupported when memory ran out,
+    // internal otherwise. `where` says after what.
     void check(const char* where);
 
 private:
@@ -58,7 +58,8 @@ private:
     Delete destroy_ = nullptr;
 };
 
-// A buffer of a fixed size; flags as of glNamedBufferStorage. Zero bytes become a few, so that it can be bound.
+// A buffer of a fixed size; flags as of glNamedBufferStorage. Zero bytes become a few, so that it can be
+// bound.
 GlObject make_buffer(const GlFunctions& gl, std::span<const std::byte> content);
 GlObject make_dynamic_buffer(const GlFunctions& gl, std::size_t size);
 
@@ -68,7 +69,8 @@ GlObject make_sampler(const GlFunctions& gl);
 GlObject make_vertex_array(const GlFunctions& gl);
 
 // colors may be empty. Throws Error{internal} if the framebuffer is not complete.
-GlObject make_framebuffer(const GlFunctions& gl, std::span<const GlObject* const> colors, const GlObject& depth);
+GlObject make_framebuffer(const GlFunctions& gl, std::span<const GlObject* const> colors,
+                          const GlObject& depth);
 
 // Throws Error{internal} with the compiler's log if the program does not build.
 GlObject make_program(const GlFunctions& gl, const std::string& vertex, const std::string& fragment);

@@ -26,7 +26,8 @@ public:
                                                 5,
                                                 0};
         context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
-        if (!context_) throw Error(ExitCode::unsupported, "OSMesaCreateContextAttribs (OpenGL 4.5 core) failed");
+        if (!context_)
+            throw Error(ExitCode::unsupported, "OSMesaCreateContextAttribs (OpenGL 4.5 core) failed");
         try {
             if (!OSMesaMakeCurrent(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1)) {
                 throw Error(ExitCode::unsupported, "OSMesaMakeCurrent failed");

@@ -79,8 +79,8 @@ private:
         if (options_.progress && !options_.progress(share)) throw Cancelled{};
     }
 
-    // Draws until no view finds a crossing any more. draw(round) draws all that may be seen; next(first) is told
-    // where the fragments of the round begin.
+    // Draws until no view finds a crossing any more. draw(round) draws all that may be seen; next(first) is
+    // told where the fragments of the round begin.
     template <class Draw, class Next>
     void peel(const Tiles& tiles, std::uint32_t first_camera, const Draw& draw, const Next& next) {
         gl_.ProgramUniform1ui(program_.name(), first_camera_location, first_camera);
@@ -183,8 +183,8 @@ Crossing* order_crossings(Crossing* begin, Crossing* end) {
         return a.triangle < b.triangle;
     });
     Crossing* out = begin;
-    std::array<Crossing*, 2> last{};       // of each facing
-    std::array<float, 2> outermost{0, 0};  // radius of the first that became part of it
+    std::array<Crossing*, 2> last{};      // of each facing
+    std::array<float, 2> outermost{0, 0}; // radius of the first that became part of it
     for (Crossing* in = begin; in != end; ++in) {
         const std::size_t facing = in->front_facing ? 0 : 1;
         if (last[facing] && outermost[facing] - in->radius < merge_distance) {
@@ -208,7 +208,8 @@ CrossingGrid to_grid(const Grid& grid, const std::vector<Fragment>& fragments) {
     std::vector<std::uint64_t> end(first.begin(), first.end() - 1);
     for (const Fragment& f : fragments) sorted[end[f.camera]++] = f.crossing;
     for (std::size_t i = 0; i < samples; ++i) {
-        end[i] = std::uint64_t(order_crossings(sorted.data() + first[i], sorted.data() + end[i]) - sorted.data());
+        end[i] =
+            std::uint64_t(order_crossings(sorted.data() + first[i], sorted.data() + end[i]) - sorted.data());
     }
 
     CrossingGrid result;

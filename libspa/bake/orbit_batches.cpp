@@ -18,7 +18,8 @@ constexpr std::size_t most_pairs = std::size_t(1) << 20;
 constexpr GLuint corners_binding = 0, pairs_binding = 2;
 
 // Reuses the buffer where the content fits.
-void refill(const GlFunctions& gl, GlObject& buffer, std::size_t& capacity, std::span<const std::byte> content) {
+void refill(const GlFunctions& gl, GlObject& buffer, std::size_t& capacity,
+            std::span<const std::byte> content) {
     if (content.size() > capacity) {
         capacity = std::bit_ceil(content.size());
         buffer = make_dynamic_buffer(gl, capacity);
@@ -44,7 +45,8 @@ void Batches::visit(std::uint32_t triangle, bool back_facing, const Found& found
 Batches::Active Batches::count(std::uint32_t triangle) const {
     const Facing facing = facing_of(model_, triangle);
     Active active{triangle, 0, facing == Facing::back};
-    if (facing != Facing::edge_on) visit(triangle, active.back_facing, [&](std::uint32_t) { ++active.pairs; });
+    if (facing != Facing::edge_on)
+        visit(triangle, active.back_facing, [&](std::uint32_t) { ++active.pairs; });
     return active;
 }
 
@@ -60,9 +62,8 @@ void Batches::plan() {
     const auto count_part = [&](const tbb::blocked_range<std::size_t>& part) {
         for (std::size_t i = part.begin(); i < part.end(); ++i) active_[i] = count(active_[i].triangle);
     };
-    arena_.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, active_.size(), 256), count_part);
-    });
+    arena_.execute(
+        [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, active_.size(), 256), count_part); });
     std::erase_if(active_, [](const Active& a) { return a.pairs == 0; });
     ranges_.clear();
     std::size_t pairs = 0;
@@ -85,8 +86,8 @@ void Batches::upload(Range range) {
         const Active& active = active_[range.begin + i];
         first_pair[i + 1] = first_pair[i] + active.pairs;
         const std::uint32_t binding = materials_.binding_of(active.triangle);
-        if (runs_.empty() || (binding != no_index && runs_.back().binding != no_index &&
-                              binding != runs_.back().binding)) {
+        if (runs_.empty() ||
+            (binding != no_index && runs_.back().binding != no_index && binding != runs_.back().binding)) {
             runs_.push_back({binding, first_pair[i], 0});
         }
         if (runs_.back().binding == no_index) runs_.back().binding = binding;
@@ -99,12 +100,12 @@ void Batches::upload(Range range) {
             const Active& active = active_[range.begin + i];
             corners_[i] = make_corners(model_, active.triangle, active.back_facing);
             GpuPair* pair = pairs_.data() + first_pair[i];
-            visit(active.triangle, active.back_facing,
-                  [&](std::uint32_t view) { *pair++ = {std::uint32_t(i), view}; });
+            visit(active.triangle, active.back_facing, [&](std::uint32_t view) {
+                *pair++ = {std::uint32_t(i), view};
+            });
         }
     };
-    arena_.execute(
-        [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles, 256), fill_part); });
+    arena_.execute([&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles, 256), fill_part); });
     refill(gl_, corners_buffer_, corners_capacity_, std::as_bytes(std::span(corners_)));
     refill(gl_, pairs_buffer_, pairs_capacity_, std::as_bytes(std::span(pairs_)));
 }
@@ -119,7 +120,8 @@ void Batches::draw(const std::function<void(double)>& after) {
             if (run.binding != no_index) materials_.bind(run.binding);
             gl_.DrawArrays(GL_TRIANGLES, GLint(3 * run.first_pair), GLsizei(3 * run.pairs));
         }
-        // llvmpipe (Mesa 22.3) lets a buffer be overwritten while fragments that read it still wait in its bins.
+        // llvmpipe (Mesa 22.3) lets a buffer be overwritten while fragments that read it still wait in its
+        // bins.
         gl_.Finish();
         after(double(i + 1) / double(ranges_.size()));
     }

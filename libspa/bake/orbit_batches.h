@@ -25,7 +25,8 @@ struct Reached {
 class Batches {
 public:
     // Everything passed outlives it. threads: as CastOptions::threads. A tree has at most 2^19 views.
-    Batches(const GlFunctions& gl, const CenteredModel& model, const MaterialTable& materials, unsigned threads);
+    Batches(const GlFunctions& gl, const CenteredModel& model, const MaterialTable& materials,
+            unsigned threads);
 
     // Starts on a rectangle of views. Both must stay; what they want may only shrink until the next begin.
     void begin(const ViewTree& tree, std::span<const Reached> reached);

@@ -26,11 +26,12 @@ DirectionBound bound_directions(const std::array<Vec3d, 3>& corners) {
     const Vec3d center = normalize(sum);
     double radius = 0;
     for (const Vec3d& u : unit) radius = std::max(radius, length(u - center));
-    // Within 80 degrees of an axis directions are a convex cone: it holds the triangle if it holds the corners.
+    // Within 80 degrees of an axis directions are a convex cone: it holds the triangle if it holds the
+    // corners.
     if (center == Vec3d{} || !(radius < 1.28)) return everything;
 
-    // A point at distance r that is misplaced by e changes its direction by e/r. No point of the triangle is nearer
-    // than its plane, nor than its middle less its extent.
+    // A point at distance r that is misplaced by e changes its direction by e/r. No point of the triangle is
+    // nearer than its plane, nor than its middle less its extent.
     const Vec3d plane = normalize(cross(corners[1] - corners[0], corners[2] - corners[0]));
     const Vec3d middle = (corners[0] + corners[1] + corners[2]) * (1.0 / 3);
     double extent = 0;
@@ -52,8 +53,8 @@ DirectionBound bound_directions(const std::array<Vec3d, 3>& corners) {
     const Vec3d across = normalize(cross(unit[longest], unit[(longest + 1) % 3]));
     if (across == Vec3d{}) return bound;
     const double height = dot(across, unit[(longest + 2) % 3]);
-    // The flat triangle of the three unit vectors lies between 0 and `height`, and no point of it is nearer to the
-    // origin than the base of the cone: pushed out to the sphere it rises by at most that factor.
+    // The flat triangle of the three unit vectors lies between 0 and `height`, and no point of it is nearer
+    // to the origin than the base of the cone: pushed out to the sphere it rises by at most that factor.
     const double rise = 1 / (1 - radius * radius / 2);
     bound.slab_normal = to_float(across);
     bound.slab_min = float(std::min(0.0, height * rise) - noise);
@@ -101,7 +102,8 @@ void ViewTree::set_wanted(std::span<const std::uint8_t> wanted) {
         std::fill(level.wanted.begin(), level.wanted.end(), std::uint8_t(0));
         for (std::uint32_t y = 0; y < height; ++y) {
             for (std::uint32_t x = 0; x < width; ++x) {
-                level.wanted[std::size_t(y / fan) * level.width + x / fan] |= below[std::size_t(y) * width + x];
+                level.wanted[std::size_t(y / fan) * level.width + x / fan] |=
+                    below[std::size_t(y) * width + x];
             }
         }
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which views a triangle must be drawn in: those whose axis comes near the directions that it covers. Directions
-// are points of the unit sphere and every bound is a ball or a slab in space, so poles, seams and folds of a
-// map need no thought.
+// Which views a triangle must be drawn in: those whose axis comes near the directions that it covers.
+// Directions are points of the unit sphere and every bound is a ball or a slab in space, so poles, seams and
+// folds of a map need no thought.
 #pragma once
 
 #include "../core/vector.h"
@@ -26,8 +26,8 @@ struct DirectionBound {
 // corners: finite.
 DirectionBound bound_directions(const std::array<Vec3d, 3>& corners);
 
-// A rectangle of views, searched by bound. Which of them are wanted can change; a view is wanted for any of eight
-// purposes, one bit each.
+// A rectangle of views, searched by bound. Which of them are wanted can change; a view is wanted for any of
+// eight purposes, one bit each.
 class ViewTree {
 public:
     // directions: unit, row-major. Nothing is wanted at first.

@@ -37,8 +37,8 @@ GlObject upload(const GlFunctions& gl, const Texture& texture, std::size_t first
         make_texture(gl, GL_SRGB8_ALPHA8, GLsizei(base.width), GLsizei(base.height), GLsizei(levels));
     for (std::size_t l = 0; l < levels; ++l) {
         const Image& image = texture.mips[first + l];
-        gl.TextureSubImage2D(object.name(), GLint(l), 0, 0, GLsizei(image.width), GLsizei(image.height), GL_RGBA,
-                             GL_UNSIGNED_BYTE, image.pixels.data());
+        gl.TextureSubImage2D(object.name(), GLint(l), 0, 0, GLsizei(image.width), GLsizei(image.height),
+                             GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
     }
     return object;
 }
@@ -104,7 +104,9 @@ MaterialTable::MaterialTable(const GlFunctions& gl, const Model& model)
         gpu.base_color = {material.base_color.x, material.base_color.y, material.base_color.z,
                           material.base_color.w};
         gpu.alpha_cutoff = material.alpha_cutoff;
-        gpu.alpha_mode = material.alpha_mode == AlphaMode::mask ? 1 : material.alpha_mode == AlphaMode::blend ? 2 : 0;
+        gpu.alpha_mode = material.alpha_mode == AlphaMode::mask    ? 1
+                         : material.alpha_mode == AlphaMode::blend ? 2
+                                                                   : 0;
         bindings_.push_back(no_index);
         if (material.texture != no_index && !model.uvs.empty()) {
             const Texture& texture = model.textures[material.texture];

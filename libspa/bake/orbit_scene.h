@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the orbit baker's shaders read: the structures of shaders/orbit_common.glsl and orbit.frag, filled from
-// a model and a grid, and the materials' textures as OpenGL objects.
+// What the orbit baker's shaders read: the structures of shaders/orbit_common.glsl and orbit.frag, filled
+// from a model and a grid, and the materials' textures as OpenGL objects.
 #pragma once
 
 #include "crossings.h"
@@ -58,16 +58,16 @@ std::array<Vec3d, 3> corner_positions(const CenteredModel& model, std::uint32_t 
 
 GpuCorners make_corners(const CenteredModel& model, std::uint32_t triangle, bool back_facing);
 
-// The materials of a model on the GPU. Its textures are those that materials refer to. The context and the model
-// must outlive it.
+// The materials of a model on the GPU. Its textures are those that materials refer to. The context and the
+// model must outlive it.
 class MaterialTable {
 public:
     MaterialTable(const GlFunctions& gl, const Model& model);
 
     [[nodiscard]] const GlObject& buffer() const { return buffer_; }
 
-    // What must be bound to shade a triangle: no_index if nothing must, else a binding for bind(). Triangles of the
-    // same binding can share a draw call.
+    // What must be bound to shade a triangle: no_index if nothing must, else a binding for bind(). Triangles
+    // of the same binding can share a draw call.
     [[nodiscard]] std::uint32_t binding_of(std::uint32_t triangle) const {
         return bindings_[model_->triangle_materials[triangle]];
     }

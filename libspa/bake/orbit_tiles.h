@@ -22,8 +22,8 @@ public:
     // both_facings: two tiles a camera, one for front-facing and one for back-facing triangles.
     Tiles(const GlFunctions& gl, std::uint32_t cameras, bool both_facings);
 
-    // Makes the empty tiles the target of a program built from shaders/orbit.*. round counts from 0; later rounds
-    // draw only what lies below the crossings of the round before.
+    // Makes the empty tiles the target of a program built from shaders/orbit.*. round counts from 0; later
+    // rounds draw only what lies below the crossings of the round before.
     void begin(const GlObject& program, std::uint32_t round) const;
 
     // Appends the crossings drawn since begin, in the order of their tiles.

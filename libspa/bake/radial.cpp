@@ -80,6 +80,13 @@ struct Scene {
     [[nodiscard]] TexelIndex texel(std::size_t sample) const {
         return {std::uint32_t(sample % grid.width), std::uint32_t(sample / grid.width)};
     }
+    // Identified samples have one direction, but a triangle at the border may meet only one of them within
+    // its octant: what any of them finds belongs to all.
+    [[nodiscard]] std::size_t owner(TexelIndex at) const {
+        const TexelIndex c = canonical(grid, at);
+        return std::size_t(c.y) * grid.width + c.x;
+    }
+    [[nodiscard]] std::size_t owner(std::size_t sample) const { return owner(texel(sample)); }
     // False where alpha leaves no surface.
     [[nodiscard]] bool visible(std::uint32_t triangle, TexelIndex at, Vec3d g, const Hit& hit) const {
         if (!shader.needs_alpha(triangle)) return true;
@@ -119,7 +126,7 @@ void rasterize(const Scene& scene, ProgressMeter& meter, Found&& found) {
                         const Vec3d g = scene.directions(x, y);
                         Hit hit;
                         if (!intersect(setup, g, hit) || !scene.visible(i, {x, y}, g, hit)) continue;
-                        found(std::size_t(y) * scene.grid.width + x, i, hit, setup.front_facing);
+                        found(scene.owner({x, y}), i, hit, setup.front_facing);
                     }
                 }
             }
@@ -146,14 +153,16 @@ CrossingGrid cast_outermost(const Scene& scene, ProgressMeter& meter) {
     CrossingGrid result;
     result.grid = scene.grid;
     result.first.resize(keys.size() + 1, 0);
-    for (std::size_t s = 0; s < keys.size(); ++s)
-        result.first[s + 1] = result.first[s] + (keys[s] != 0 ? 1 : 0);
+    for (std::size_t s = 0; s < keys.size(); ++s) {
+        result.first[s + 1] = result.first[s] + (keys[scene.owner(s)] != 0 ? 1 : 0);
+    }
     result.crossings.resize(result.first.back());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, keys.size(), 1024), [&](const auto& range) {
         for (std::size_t s = range.begin(); s < range.end(); ++s) {
-            if (keys[s] == 0) continue;
+            const std::uint64_t key = keys[scene.owner(s)];
+            if (key == 0) continue;
             result.crossings[result.first[s]] =
-                scene.shade(s, 0xFFFFFFFFU - std::uint32_t(keys[s] & 0xFFFFFFFFU));
+                scene.shade(s, 0xFFFFFFFFU - std::uint32_t(key & 0xFFFFFFFFU));
         }
     });
     return result;
@@ -208,21 +217,23 @@ CrossingGrid cast_all(const Scene& scene, ProgressMeter& meter) {
             std::vector<Found>().swap(list);
         }
     }
-    CrossingGrid result;
-    result.grid = scene.grid;
-    result.first.resize(samples + 1, 0);
+    std::vector<std::uint32_t> kept(samples);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples, 4096), [&](const auto& range) {
         for (std::size_t s = range.begin(); s < range.end(); ++s) {
             Found* const first = found.data() + begin[s];
-            result.first[s + 1] = std::uint64_t(order_crossings(first, found.data() + begin[s + 1]) - first);
+            kept[s] = std::uint32_t(order_crossings(first, found.data() + begin[s + 1]) - first);
         }
     });
-    for (std::size_t s = 0; s < samples; ++s) result.first[s + 1] += result.first[s];
+    CrossingGrid result;
+    result.grid = scene.grid;
+    result.first.resize(samples + 1, 0);
+    for (std::size_t s = 0; s < samples; ++s) result.first[s + 1] = result.first[s] + kept[scene.owner(s)];
     result.crossings.resize(result.first.back());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples, 1024), [&](const auto& range) {
         for (std::size_t s = range.begin(); s < range.end(); ++s) {
+            const Found* const first = found.data() + begin[scene.owner(s)];
             for (std::uint64_t k = result.first[s]; k < result.first[s + 1]; ++k) {
-                result.crossings[k] = scene.shade(s, found[begin[s] + (k - result.first[s])].triangle);
+                result.crossings[k] = scene.shade(s, first[k - result.first[s]].triangle);
             }
         }
     });

@@ -17,8 +17,8 @@ const std::string& png() {
         const unsigned char raw[] = {0x89, 'P',  'N',  'G',  0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 'I',  'H',
                                      'D',  'R',  0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00,
                                      0x00, 0x3A, 0x7E, 0x9B, 0x55, 0x00, 0x00, 0x00, 0x0D, 'I',  'D',  'A',  'T',  0x78,
-                                     0x01, 0x01, 0x02, 0x00, 0xFD, 0xFF, 0x00, 0x80, 0x00, 0x82, 0x00, 0x81, 0x77, 0xCD,
-                                     0x72, 0xB6, 0x00, 0x00, 0x00, 0x00, 'I',  'E',  'N',  'D',  0xAE, 0x42, 0x60, 0x82};
+                                     0x01, 0x01, 0x02, 0x00, 0xFD, 0xFF, 0x00, 0x80, 0x00, 0x82, 0x00, 0x81, 0xC3, 0x6E,
+                                     0x25, 0xE0, 0x00, 0x00, 0x00, 0x00, 'I',  'E',  'N',  'D',  0xAE, 0x42, 0x60, 0x82};
         return std::string(reinterpret_cast<const char*>(raw), sizeof raw);
     }();
     return bytes;
@@ -105,23 +105,60 @@ TEST(Material, TextureTransform) {
     EXPECT_EQ(import_both(builder).model.uvs[0], (Vec2f{0.2F, 0.8F}));
 }
 
+struct TexturedTriangle {
+    std::string texture;
+    Vec3f center;
+    std::size_t index = 0;
+};
+
+std::vector<TexturedTriangle> textured_triangles(const Model& model) {
+    std::vector<TexturedTriangle> out;
+    for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+        const Material& material = model.materials[model.triangle_materials[t]];
+        const auto [a, b, c] = corners(model, t);
+        out.push_back({model.textures[material.texture].name, (a + b + c) * (1.0F / 3), t});
+    }
+    return out;
+}
+
+// The uv that the plane of a triangle has at a point, by its edges.
+Vec2f uv_at(const Model& model, std::size_t triangle, Vec3f point) {
+    const auto [a, b, c] = corners(model, triangle);
+    const Vec3f ab = b - a, ac = c - a, ap = point - a;
+    const float det = ab.x * ac.y - ab.y * ac.x;
+    const float s = (ap.x * ac.y - ap.y * ac.x) / det, t = (ab.x * ap.y - ab.y * ap.x) / det;
+    const auto& v = model.triangles[triangle].vertex;
+    const Vec2f ua = model.uvs[v[0]];
+    return ua + (model.uvs[v[1]] - ua) * s + (model.uvs[v[2]] - ua) * t;
+}
+
+// In this asset an arrow along u = v must point to the green markers and not to the red ones.
 TEST(Material, TextureTransformTestPointsTheArrowsRight) {
     if (assets().empty()) GTEST_SKIP() << "no assets";
-    const import::Result result =
-        import::read_model(assets() / "gltf/TextureTransformTest/TextureTransformTest.gltf");
-    // Whatever the triangle, the texel at the middle of each of the three upper quads is coloured as its
-    // offset says: green for u, blue for v, cyan for both; yellow where no offset was applied.
-    std::size_t seen = 0;
-    for (std::size_t t = 0; t < result.model.triangles.size(); ++t) {
-        const Material& material = result.model.materials[result.model.triangle_materials[t]];
-        if (material.texture == no_index || result.model.textures[material.texture].name != "UV.png") continue;
-        Vec2f uv{};
-        for (const std::uint32_t v : result.model.triangles[t].vertex) uv = uv + result.model.uvs[v] * (1.0F / 3);
-        const bool u = uv.x > 0.5F, v = uv.y > 0.5F;
-        EXPECT_TRUE(u || v);
-        ++seen;
+    const Model model =
+        import::read_model(assets() / "gltf/TextureTransformTest/TextureTransformTest.gltf").model;
+    const std::vector<TexturedTriangle> triangles = textured_triangles(model);
+    std::size_t right = 0, wrong = 0;
+    for (const TexturedTriangle& marker : triangles) {
+        if (marker.texture != "Correct.png" && marker.texture != "Error.png") continue;
+        const TexturedTriangle* nearest = nullptr;
+        for (const TexturedTriangle& arrow : triangles) {
+            if (arrow.texture != "Arrow.png") continue;
+            if (nearest == nullptr || length(arrow.center - marker.center) < length(nearest->center - marker.center))
+                nearest = &arrow;
+        }
+        ASSERT_NE(nearest, nullptr);
+        const Vec2f uv = uv_at(model, nearest->index, marker.center);
+        if (marker.texture == "Correct.png") {
+            EXPECT_NEAR(uv.x, uv.y, 0.1F);
+            ++right;
+        } else {
+            EXPECT_GT(std::abs(uv.x - uv.y), 0.3F);
+            ++wrong;
+        }
     }
-    EXPECT_EQ(seen, 6U);
+    EXPECT_EQ(right, 6U); // two triangles a marker
+    EXPECT_EQ(wrong, 2U);
 }
 
 TEST(Material, MissingUvSetIsDrawnWithoutTexture) {

@@ -46,7 +46,7 @@ TEST(Normals, SmoothHingeSharesTheBisectorAndSharpOneSplits) {
     Model smooth = hinge(30);
     compute_normals(smooth);
     EXPECT_EQ(smooth.positions.size(), 6U);
-    // Vertex 1 has corners of 45 degrees twice on one side... the weights of both squares are 90 degrees.
+    // Both squares have 90 degrees at the shared vertices, however they are cut.
     const Vec3f bisector{float(-std::sin(std::numbers::pi / 12)), float(std::cos(std::numbers::pi / 12)), 0};
     EXPECT_LT(degrees_between(smooth.normals[0], bisector), 1e-3);
     EXPECT_LT(degrees_between(smooth.normals[1], bisector), 1e-3);

@@ -27,7 +27,9 @@ ViewTree tree_of(const Grid& grid) {
 // Whether the ray along u meets the triangle.
 bool meets(const std::array<Vec3d, 3>& p, Vec3d u) {
     const double d = dot(p[0], cross(p[1], p[2]));
-    const auto side = [&](std::size_t i, std::size_t j) { return dot(cross(p[i], p[j]), u) * (d < 0 ? -1 : 1); };
+    const auto side = [&](std::size_t i, std::size_t j) {
+        return dot(cross(p[i], p[j]), u) * (d < 0 ? -1 : 1);
+    };
     return side(0, 1) >= 0 && side(1, 2) >= 0 && side(2, 0) >= 0;
 }
 

@@ -130,7 +130,8 @@ private:
         Vec4f color = material.base_color;
         if (!model.colors.empty()) {
             Vec4f mixed{};
-            for (std::size_t k = 0; k < 3; ++k) mixed = sum(mixed, scaled(model.colors[vertex[k]], weight[k]));
+            for (std::size_t k = 0; k < 3; ++k)
+                mixed = sum(mixed, scaled(model.colors[vertex[k]], weight[k]));
             color = product(color, mixed);
         }
         if (material.texture != no_index) {
@@ -153,12 +154,14 @@ private:
                 const double lower = std::floor(std::min(level, last));
                 const double upper = std::min(lower + 1, last);
                 const double f = std::min(level, last) - lower;
-                color = product(color, sum(scaled(filter(mips[std::size_t(lower)], material, at, false), 1 - f),
-                                           scaled(filter(mips[std::size_t(upper)], material, at, false), f)));
+                color =
+                    product(color, sum(scaled(filter(mips[std::size_t(lower)], material, at, false), 1 - f),
+                                       scaled(filter(mips[std::size_t(upper)], material, at, false), f)));
             } else {
                 color = product(color, filter(mips[0], material, at, material.nearest));
             }
-            if (material.nearest && (std::abs(level) < 0.01 || at_texel_border(mips[0], at))) hit.undecided = true;
+            if (material.nearest && (std::abs(level) < 0.01 || at_texel_border(mips[0], at)))
+                hit.undecided = true;
         }
         double alpha = 1;
         if (material.alpha_mode == AlphaMode::mask) {
@@ -224,8 +227,8 @@ Model random_textured_soup(std::uint32_t count, std::uint32_t seed) {
         const Vec3f middle{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
         const float size = uniform(0.1F, 1);
         for (int k = 0; k < 3; ++k) {
-            model.positions.push_back(middle +
-                                      Vec3f{uniform(-size, size), uniform(-size, size), uniform(-size, size)});
+            model.positions.push_back(
+                middle + Vec3f{uniform(-size, size), uniform(-size, size), uniform(-size, size)});
             model.normals.push_back(normalize(Vec3f{uniform(-1, 1), uniform(-1, 1), uniform(1, 2)}));
             model.uvs.push_back({uniform(-2, 3), uniform(-2, 3)});
             model.colors.push_back({uniform(0.5F, 1), uniform(0.5F, 1), uniform(0.5F, 1), uniform(0.8F, 1)});

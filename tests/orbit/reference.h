@@ -14,8 +14,8 @@ namespace spa::test {
 // The model scaled into the unit sphere around the origin, which stays where it is.
 bake::CenteredModel normalized(const Model& model);
 
-// `count` random triangles with vertex colours, and materials of all alpha modes, wrap modes and filters, with
-// textures of several sizes and without.
+// `count` random triangles with vertex colours, and materials of all alpha modes, wrap modes and filters,
+// with textures of several sizes and without.
 Model random_textured_soup(std::uint32_t count, std::uint32_t seed);
 
 // The crossings of one sample, outermost first. Nothing where rounding may decide: an edge, an alpha at its

@@ -120,7 +120,8 @@ TEST_F(OrbitShapes, TetrahedronIsClosed) {
     Model model = empty_model();
     model.positions = {{0, 0.9F, 0.1F}, {-0.9F, -0.3F, 0.2F}, {0.8F, -0.4F, 0.3F}, {0.1F, -0.2F, -0.9F}};
     model.normals = model.positions;
-    for (const Triangle& t : {Triangle{{0, 1, 2}}, Triangle{{0, 2, 3}}, Triangle{{0, 3, 1}}, Triangle{{1, 3, 2}}}) {
+    for (const Triangle& t :
+         {Triangle{{0, 1, 2}}, Triangle{{0, 2, 3}}, Triangle{{0, 3, 1}}, Triangle{{1, 3, 2}}}) {
         model.triangles.push_back(t);
         model.triangle_materials.push_back(0);
     }
@@ -144,7 +145,8 @@ TEST_F(OrbitShapes, FoldedBorderIsEqualToTheBit) {
             const TexelIndex same = canonical(grid, texel);
             const std::size_t a = texel.y * grid.width + texel.x;
             const std::size_t b = same.y * grid.width + same.x;
-            ASSERT_EQ(crossings.first[a + 1] - crossings.first[a], crossings.first[b + 1] - crossings.first[b]);
+            ASSERT_EQ(crossings.first[a + 1] - crossings.first[a],
+                      crossings.first[b + 1] - crossings.first[b]);
             for (std::uint64_t k = 0; k < crossings.first[a + 1] - crossings.first[a]; ++k) {
                 EXPECT_TRUE(equal(crossings.crossings[crossings.first[a] + k],
                                   crossings.crossings[crossings.first[b] + k]));
@@ -158,7 +160,8 @@ TEST_F(OrbitShapes, TrianglesThatNoViewSees) {
     // A plane through the centre, a line, a point, and something that is no number.
     model.positions = {{-1, 0, -1}, {1, 0, -1}, {0, 0, 1}, {0.5F, 0.5F, 0.5F}, {NAN, 0, 1}};
     model.normals.assign(5, {0, 1, 0});
-    for (const Triangle& t : {Triangle{{0, 1, 2}}, Triangle{{0, 1, 1}}, Triangle{{3, 3, 3}}, Triangle{{1, 3, 4}}}) {
+    for (const Triangle& t :
+         {Triangle{{0, 1, 2}}, Triangle{{0, 1, 1}}, Triangle{{3, 3, 3}}, Triangle{{1, 3, 4}}}) {
         model.triangles.push_back(t);
         model.triangle_materials.push_back(0);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colour and alpha on a square across +Z whose uv run from 0 to 1: what each sample must show is plain to see.
+// Colour and alpha on a square across +Z whose uv run from 0 to 1: what each sample must show is plain to
+// see.
 #include "fixture.h"
 
 #include "../support/shapes.h"
@@ -19,8 +20,10 @@ protected:
         add_quad(model, {-1, -1, 0.5F}, {1, -1, 0.5F}, {1, 1, 0.5F}, {-1, 1, 0.5F});
         model.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
         Texture texture;
-        texture.mips.push_back({2, 2, {Color{255, 0, 0, 255}, Color{0, 255, 0, 128}, Color{0, 0, 255, 40},
-                                       Color{255, 255, 255, 0}}});
+        texture.mips.push_back(
+            {2,
+             2,
+             {Color{255, 0, 0, 255}, Color{0, 255, 0, 128}, Color{0, 0, 255, 40}, Color{255, 255, 255, 0}}});
         build_mips(texture);
         model.textures.push_back(texture);
         model.materials[0].texture = 0;
@@ -35,7 +38,8 @@ protected:
         centered.normals = model.normals;
         const Grid grid = octahedral(32);
         const Vec2d position = position_of(grid, {2 * uv.x - 1, 1 - 2 * uv.y, 0.5});
-        const std::size_t sample = std::size_t(std::lround(position.y)) * grid.width + std::size_t(std::lround(position.x));
+        const std::size_t sample =
+            std::size_t(std::lround(position.y)) * grid.width + std::size_t(std::lround(position.x));
         const bake::CrossingGrid crossings = cast(centered, grid, true);
         return {crossings.crossings.begin() + std::ptrdiff_t(crossings.first[sample]),
                 crossings.crossings.begin() + std::ptrdiff_t(crossings.first[sample + 1])};
@@ -149,7 +153,8 @@ TEST_F(OrbitSurface, ManyTextures) {
     const auto crossings = at({0.25, 0.25});
     ASSERT_EQ(crossings.size(), 40U);
     for (int i = 1; i < 40; ++i) {
-        EXPECT_EQ(crossings[std::size_t(39 - i)].color, (Color{std::uint8_t(i), std::uint8_t(5 * i), 0, 255}));
+        EXPECT_EQ(crossings[std::size_t(39 - i)].color,
+                  (Color{std::uint8_t(i), std::uint8_t(5 * i), 0, 255}));
     }
 }
 
