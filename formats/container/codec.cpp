@@ -4,6 +4,7 @@
 #include "little_endian.h"
 
 #include <new>
+#include <utility>
 
 #include <zstd.h>
 
@@ -20,25 +21,20 @@ T unzigzag(T v) {
     return T(T(v >> 1U) ^ T(0U - unsigned(v & 1U)));
 }
 
-// The samples of one component: sample i is at values[i].
-template <class T>
-struct Plane {
-    std::vector<T> values;
-    std::size_t width = 0;
-
-    // left + above - above left, modulo 2^bits; what is outside counts as 0.
-    [[nodiscard]] T prediction(std::size_t i) const {
-        const bool has_left = i % width > 0;
-        const bool has_above = i >= width;
-        const T left = has_left ? values[i - 1] : T(0);
-        const T above = has_above ? values[i - width] : T(0);
-        const T corner = has_left && has_above ? values[i - width - 1] : T(0);
-        return T(left + above - corner);
-    }
+struct Layout {
+    std::size_t width = 0, height = 0, components = 0;
+    [[nodiscard]] std::size_t samples() const { return width * height; }
 };
 
-struct Layout {
-    std::size_t width = 0, samples = 0, components = 0;
+// The row being worked on and the one above it, each after a zero: sample x is at [x + 1].
+template <class T>
+struct Rows {
+    std::vector<T> above, current;
+
+    explicit Rows(std::size_t width) : above(width + 1), current(width + 1) {}
+    // left + above - above left, modulo 2^bits; what is outside counts as 0.
+    [[nodiscard]] T prediction(std::size_t x) const { return T(current[x] + above[x + 1] - above[x]); }
+    void next() { std::swap(above, current); }
 };
 
 // Component c, byte b of sample i is at raw[(i * components + c) * sizeof(T) + b] and at
@@ -46,14 +42,20 @@ struct Layout {
 template <class T>
 std::vector<std::byte> filter_components(const Layout& layout, std::span<const std::byte> raw) {
     std::vector<std::byte> out(raw.size());
-    Plane<T> plane{std::vector<T>(layout.samples), layout.width};
+    const std::size_t samples = layout.samples();
+    const std::size_t stride = layout.components * sizeof(T);
     for (std::size_t c = 0; c < layout.components; ++c) {
-        std::byte* const planes = out.data() + c * sizeof(T) * layout.samples;
-        for (std::size_t i = 0; i < layout.samples; ++i) {
-            plane.values[i] = load<T>(raw.data() + (i * layout.components + c) * sizeof(T));
-            const T code = zigzag(T(plane.values[i] - plane.prediction(i)));
-            for (std::size_t b = 0; b < sizeof(T); ++b)
-                planes[b * layout.samples + i] = std::byte((code >> (8 * b)) & 0xFFU);
+        Rows<T> rows(layout.width);
+        const std::byte* from = raw.data() + c * sizeof(T);
+        std::byte* to = out.data() + c * sizeof(T) * samples;
+        for (std::size_t y = 0; y < layout.height; ++y, rows.next()) {
+            for (std::size_t x = 0; x < layout.width; ++x, from += stride, ++to) {
+                const T value = load<T>(from);
+                const T code = zigzag(T(value - rows.prediction(x)));
+                rows.current[x + 1] = value;
+                for (std::size_t b = 0; b < sizeof(T); ++b)
+                    to[b * samples] = std::byte((code >> (8 * b)) & 0xFFU);
+            }
         }
     }
     return out;
@@ -62,22 +64,28 @@ std::vector<std::byte> filter_components(const Layout& layout, std::span<const s
 template <class T>
 std::vector<std::byte> unfilter_components(const Layout& layout, std::span<const std::byte> filtered) {
     std::vector<std::byte> out(filtered.size());
-    Plane<T> plane{std::vector<T>(layout.samples), layout.width};
+    const std::size_t samples = layout.samples();
+    const std::size_t stride = layout.components * sizeof(T);
     for (std::size_t c = 0; c < layout.components; ++c) {
-        const std::byte* const planes = filtered.data() + c * sizeof(T) * layout.samples;
-        for (std::size_t i = 0; i < layout.samples; ++i) {
-            T code = 0;
-            for (std::size_t b = 0; b < sizeof(T); ++b)
-                code = T(code | T(std::to_integer<T>(planes[b * layout.samples + i]) << (8 * b)));
-            plane.values[i] = T(unzigzag(code) + plane.prediction(i));
-            store(out.data() + (i * layout.components + c) * sizeof(T), plane.values[i]);
+        Rows<T> rows(layout.width);
+        const std::byte* from = filtered.data() + c * sizeof(T) * samples;
+        std::byte* to = out.data() + c * sizeof(T);
+        for (std::size_t y = 0; y < layout.height; ++y, rows.next()) {
+            for (std::size_t x = 0; x < layout.width; ++x, ++from, to += stride) {
+                T code = 0;
+                for (std::size_t b = 0; b < sizeof(T); ++b)
+                    code = T(code | T(std::to_integer<T>(from[b * samples]) << (8 * b)));
+                const T value = T(unzigzag(code) + rows.prediction(x));
+                rows.current[x + 1] = value;
+                store(to, value);
+            }
         }
     }
     return out;
 }
 
 Layout layout_of(ElementFormat format, std::uint32_t width, std::uint32_t height) {
-    return {width, std::size_t(width) * height, element_shape(format).components};
+    return {width, height, element_shape(format).components};
 }
 
 } // namespace
@@ -126,6 +134,10 @@ std::vector<std::byte> compress(std::span<const std::byte> raw, int level) {
 
 Issue decode_section(const SectionEntry& entry, std::span<const std::byte> stored,
                      std::vector<std::byte>& raw) {
+    // Some builds of the library also read formats from before version 1.0, and skippable frames hold
+    // nothing.
+    if (stored.size() < sizeof(std::uint32_t) || load<std::uint32_t>(stored.data()) != ZSTD_MAGICNUMBER)
+        return Issue::wrong_frame_size;
     if (ZSTD_getFrameContentSize(stored.data(), stored.size()) != entry.raw_length)
         return Issue::wrong_frame_size;
     const std::size_t frame_size = ZSTD_findFrameCompressedSize(stored.data(), stored.size());

@@ -86,23 +86,25 @@ private:
     Plan& plan_;
 };
 
+// Depths and normals are smooth: the filter always gains there. Colours may be flat or noisy: both are tried.
 void compress_section(SectionEntry& entry, int level, std::span<const std::byte> raw,
                       std::vector<std::byte>& out) {
-    std::vector<std::byte> best = compress(raw, level);
-    entry.scheme = Scheme::zstd;
-    if (is_image(entry.type)) {
-        std::vector<std::byte> other = compress(filter(entry.format, entry.width, entry.height, raw), level);
-        if (other.size() < best.size()) {
-            best = std::move(other);
-            entry.scheme = Scheme::filtered_zstd;
+    entry.scheme = is_image(entry.type) ? Scheme::filtered_zstd : Scheme::zstd;
+    out = entry.scheme == Scheme::filtered_zstd
+              ? compress(filter(entry.format, entry.width, entry.height, raw), level)
+              : compress(raw, level);
+    if (entry.type == type_color) {
+        std::vector<std::byte> plain = compress(raw, level);
+        if (plain.size() < out.size()) {
+            out = std::move(plain);
+            entry.scheme = Scheme::zstd;
         }
     }
-    if (best.size() >= raw.size()) {
+    if (out.size() >= raw.size()) {
         entry.scheme = Scheme::none;
-        return;
+        out.clear();
     }
-    entry.stored_length = best.size();
-    out = std::move(best);
+    entry.stored_length = out.empty() ? raw.size() : out.size();
 }
 
 // The pieces of the file in order. They point into the plan, the map and this object.

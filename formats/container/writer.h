@@ -13,7 +13,8 @@ namespace spa::container {
 
 enum class Compression : std::uint8_t {
     none, // images can be used where they lie
-    zstd, // each section as Scheme::zstd or filtered_zstd, whichever is smaller, or as it is if neither helps
+    zstd, // depths and normals as Scheme::filtered_zstd, colours as that or zstd, whichever is smaller,
+          // metadata as zstd; what does not shrink stays as it is
 };
 
 struct WriteOptions {

@@ -11,13 +11,16 @@ struct Affine {
     Vec3d translation;
 };
 
-constexpr Vec3d transform_point(const Affine& map, Vec3d point) { return map.linear * point + map.translation; }
+constexpr Vec3d transform_point(const Affine& map, Vec3d point) {
+    return map.linear * point + map.translation;
+}
 
 constexpr Mat3 multiply(const Mat3& a, const Mat3& b) {
     const Mat3 columns = transpose(b);
     Mat3 out;
     for (int i = 0; i < 3; ++i)
-        out.row[i] = {dot(a.row[i], columns.row[0]), dot(a.row[i], columns.row[1]), dot(a.row[i], columns.row[2])};
+        out.row[i] = {dot(a.row[i], columns.row[0]), dot(a.row[i], columns.row[1]),
+                      dot(a.row[i], columns.row[2])};
     return out;
 }
 
@@ -30,7 +33,8 @@ constexpr Affine operator*(const Affine& a, const Affine& b) {
 // unlike the inverse.
 constexpr Mat3 normal_matrix(const Mat3& m) {
     const double sign = determinant(m) < 0 ? -1.0 : 1.0;
-    return {{cross(m.row[1], m.row[2]) * sign, cross(m.row[2], m.row[0]) * sign, cross(m.row[0], m.row[1]) * sign}};
+    return {{cross(m.row[1], m.row[2]) * sign, cross(m.row[2], m.row[0]) * sign,
+             cross(m.row[0], m.row[1]) * sign}};
 }
 
 } // namespace spa::import

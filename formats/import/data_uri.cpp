@@ -35,7 +35,8 @@ std::optional<std::vector<std::byte>> decode_base64(std::string_view text) {
     const char* from = text.data();
     std::uint32_t seen = 0; // 6-bit values leave the upper bits clear; not_base64 sets them
     for (std::size_t group = text.size() / 4; group > 0; --group, from += 4, to += 3) {
-        const std::uint32_t a = value_of(from[0]), b = value_of(from[1]), c = value_of(from[2]), d = value_of(from[3]);
+        const std::uint32_t a = value_of(from[0]), b = value_of(from[1]), c = value_of(from[2]),
+                            d = value_of(from[3]);
         seen |= a | b | c | d;
         const std::uint32_t bits = a << 18U | b << 12U | c << 6U | d;
         to[0] = static_cast<std::byte>(bits >> 16U & 0xFFU);
@@ -43,7 +44,8 @@ std::optional<std::vector<std::byte>> decode_base64(std::string_view text) {
         to[2] = static_cast<std::byte>(bits & 0xFFU);
     }
     if (rest > 0) {
-        const std::uint32_t a = value_of(from[0]), b = value_of(from[1]), c = rest == 3 ? value_of(from[2]) : 0;
+        const std::uint32_t a = value_of(from[0]), b = value_of(from[1]),
+                            c = rest == 3 ? value_of(from[2]) : 0;
         seen |= a | b | c;
         const std::uint32_t bits = a << 18U | b << 12U | c << 6U;
         to[0] = static_cast<std::byte>(bits >> 16U & 0xFFU);
@@ -62,7 +64,8 @@ std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri) {
         return decode_base64(content);
     const std::string decoded = percent_decode(content);
     std::vector<std::byte> out(decoded.size());
-    std::transform(decoded.begin(), decoded.end(), out.begin(), [](char c) { return static_cast<std::byte>(c); });
+    std::transform(decoded.begin(), decoded.end(), out.begin(),
+                   [](char c) { return static_cast<std::byte>(c); });
     return out;
 }
 

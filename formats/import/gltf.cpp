@@ -20,7 +20,7 @@ namespace {
 Json parse_json(std::string_view text, const Context& context) {
     try {
         return Json::parse(text);
-    } catch (const Json::parse_error& error) {
+    } catch (const Json::exception& error) { // also numbers out of range
         // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
         const std::string_view message = error.what();
         const std::size_t end = message.find("] ");
@@ -50,26 +50,28 @@ tinygltf::Model build_model(Json& document, const Context& context) {
     if (document.contains("meshes"))
         for (Json& mesh : document["meshes"])
             for (Json& primitive : mesh["primitives"])
-                if (member_of(primitive, "extensions").contains("KHR_draco_mesh_compression")) primitive.erase("indices");
+                if (member_of(primitive, "extensions").contains("KHR_draco_mesh_compression"))
+                    primitive.erase("indices");
 
     const std::string text = document.dump();
     document = Json::object();
     if (!animations.is_null()) document["animations"] = std::move(animations);
     if (text.size() > std::numeric_limits<unsigned>::max()) fail(context, "JSON", "is longer than 4 GiB");
     tinygltf::TinyGLTF loader;
-    loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
-                             void*) { return true; },
+    loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
+                             const unsigned char*, int, void*) { return true; },
                           nullptr);
     tinygltf::Model model;
     std::string errors, warnings;
-    if (!loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()), "",
-                                    tinygltf::NO_REQUIRE))
+    if (!loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(),
+                                    static_cast<unsigned>(text.size()), "", tinygltf::NO_REQUIRE))
         fail(context, "", errors);
     return model;
 }
 
 // Holds the flattened scene against the limits before anything is allocated for it.
-Size total_size(const tinygltf::Model& model, const std::vector<Instance>& instances, const Context& context) {
+Size total_size(const tinygltf::Model& model, const std::vector<Instance>& instances,
+                const Context& context) {
     Size total;
     for (const Instance& instance : instances)
         for (const tinygltf::Primitive& primitive :
@@ -79,11 +81,13 @@ Size total_size(const tinygltf::Model& model, const std::vector<Instance>& insta
             total.vertices += size.vertices;
             total.triangles += size.triangles;
             if (total.vertices > context.limits.vertices)
-                fail(context, "", "the scene has more vertices than the limit of " +
-                                      std::to_string(context.limits.vertices));
+                fail(context, "",
+                     "the scene has more vertices than the limit of " +
+                         std::to_string(context.limits.vertices));
             if (total.triangles > context.limits.triangles)
-                fail(context, "", "the scene has more triangles than the limit of " +
-                                      std::to_string(context.limits.triangles));
+                fail(context, "",
+                     "the scene has more triangles than the limit of " +
+                         std::to_string(context.limits.triangles));
         }
     return total;
 }
@@ -98,11 +102,13 @@ std::string nothing_to_bake(const tinygltf::Model& model, const std::vector<Inst
     if (report.dropped_degenerate != 0)
         why += ", " + std::to_string(report.dropped_degenerate) + " triangles have no area";
     if (report.dropped_non_finite != 0)
-        why += ", " + std::to_string(report.dropped_non_finite) + " triangles have corners that are not finite";
+        why +=
+            ", " + std::to_string(report.dropped_non_finite) + " triangles have corners that are not finite";
     return why;
 }
 
-void assemble(const tinygltf::Model& model, Buffers& buffers, Images& images, const Context& context, Model& out) {
+void assemble(const tinygltf::Model& model, Buffers& buffers, Images& images, const Context& context,
+              Model& out) {
     const std::vector<Instance> instances = flatten_scene(model, buffers, context);
     const Size total = total_size(model, instances, context);
     std::vector<bool> used(model.materials.size());
@@ -133,8 +139,9 @@ void assemble(const tinygltf::Model& model, Buffers& buffers, Images& images, co
         }
     }
     if (context.report.dropped_non_finite != 0)
-        warn(context, "", std::to_string(context.report.dropped_non_finite) +
-                              " triangles have corners that are not finite and are left out");
+        warn(context, "",
+             std::to_string(context.report.dropped_non_finite) +
+                 " triangles have corners that are not finite and are left out");
     if (out.triangles.empty())
         fail(context, "", "nothing to bake: " + nothing_to_bake(model, instances, context.report));
     if (!out.uvs.empty()) out.uvs.resize(out.positions.size());

@@ -34,8 +34,8 @@ struct Widen {
 };
 
 template <class T, class Out, class Convert>
-void copy_elements(const Elements& elements, std::span<const std::uint32_t> subset, std::size_t wanted, Out* out,
-                   std::size_t out_stride, Convert convert) {
+void copy_elements(const Elements& elements, std::span<const std::uint32_t> subset, std::size_t wanted,
+                   Out* out, std::size_t out_stride, Convert convert) {
     const std::size_t components = std::min(wanted, elements.components);
     const auto copy_one = [&](std::size_t index, Out* to) {
         const std::byte* from = elements.bytes.data() + index * elements.stride;
@@ -56,8 +56,8 @@ void copy_elements(const Elements& elements, std::span<const std::uint32_t> subs
 }
 
 template <class T>
-void copy_floats(const Elements& elements, std::span<const std::uint32_t> subset, std::size_t wanted, float* out,
-                 std::size_t out_stride) {
+void copy_floats(const Elements& elements, std::span<const std::uint32_t> subset, std::size_t wanted,
+                 float* out, std::size_t out_stride) {
     if (elements.normalized)
         copy_elements<T>(elements, subset, wanted, out, out_stride, Fraction<T>{});
     else
@@ -76,8 +76,9 @@ std::vector<std::uint32_t> sparse_indices(const tinygltf::Accessor& accessor, Bu
     const auto offset = static_cast<std::size_t>(accessor.sparse.indices.byteOffset);
     const auto view = static_cast<std::size_t>(accessor.sparse.indices.bufferView);
     std::vector<std::uint32_t> indices(count);
-    read_integers({buffers.view(view).subspan(offset), size, count, accessor.sparse.indices.componentType, 1, false},
-                  {}, 1, indices.data(), 1);
+    read_integers(
+        {buffers.view(view).subspan(offset), size, count, accessor.sparse.indices.componentType, 1, false},
+        {}, 1, indices.data(), 1);
     for (std::size_t i = 0; i < count; ++i)
         if (indices[i] >= accessor.count || (i > 0 && indices[i] <= indices[i - 1]))
             fail(context, at("bufferViews", view),
@@ -98,8 +99,8 @@ void apply_sparse(const tinygltf::Accessor& accessor, Buffers& buffers, std::siz
     std::vector<float> replaced(indices.size() * wanted);
     read_floats(values, {}, wanted, replaced.data(), wanted);
     for (std::size_t i = 0; i < indices.size(); ++i)
-        std::copy_n(replaced.begin() + static_cast<std::ptrdiff_t>(i * wanted), std::min(wanted, values.components),
-                    out + indices[i] * out_stride);
+        std::copy_n(replaced.begin() + static_cast<std::ptrdiff_t>(i * wanted),
+                    std::min(wanted, values.components), out + indices[i] * out_stride);
 }
 
 } // namespace
@@ -108,8 +109,8 @@ Elements elements_of(const tinygltf::Accessor& accessor, Buffers& buffers) {
     Elements elements;
     elements.count = accessor.count;
     elements.component_type = accessor.componentType;
-    elements.components = static_cast<std::size_t>(
-        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
+    elements.components =
+        static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
     elements.normalized = accessor.normalized;
     elements.stride = elements.components * static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(
                                                 static_cast<std::uint32_t>(accessor.componentType)));
@@ -121,10 +122,11 @@ Elements elements_of(const tinygltf::Accessor& accessor, Buffers& buffers) {
     return elements;
 }
 
-void read_floats(const Elements& elements, std::span<const std::uint32_t> subset, std::size_t wanted, float* out,
-                 std::size_t out_stride) {
+void read_floats(const Elements& elements, std::span<const std::uint32_t> subset, std::size_t wanted,
+                 float* out, std::size_t out_stride) {
     if (elements.bytes.empty()) {
-        zero(subset.empty() ? elements.count : subset.size(), std::min(wanted, elements.components), out, out_stride);
+        zero(subset.empty() ? elements.count : subset.size(), std::min(wanted, elements.components), out,
+             out_stride);
         return;
     }
     // Floats side by side on both sides are most of what real files hold.
@@ -135,10 +137,12 @@ void read_floats(const Elements& elements, std::span<const std::uint32_t> subset
         return;
     }
     switch (elements.component_type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: return copy_floats<std::int8_t>(elements, subset, wanted, out, out_stride);
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return copy_floats<std::int8_t>(elements, subset, wanted, out, out_stride);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
         return copy_floats<std::uint8_t>(elements, subset, wanted, out, out_stride);
-    case TINYGLTF_COMPONENT_TYPE_SHORT: return copy_floats<std::int16_t>(elements, subset, wanted, out, out_stride);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return copy_floats<std::int16_t>(elements, subset, wanted, out, out_stride);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
         return copy_floats<std::uint16_t>(elements, subset, wanted, out, out_stride);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:

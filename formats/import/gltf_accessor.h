@@ -26,8 +26,8 @@ Elements elements_of(const tinygltf::Accessor& accessor, Buffers& buffers);
 
 // Writes `wanted` floats of each element at out, out + out_stride, ... A component that the element lacks is
 // left as it is. `subset`: the indices of the elements to read, in order; empty: all.
-void read_floats(const Elements& elements, std::span<const std::uint32_t> subset, std::size_t wanted, float* out,
-                 std::size_t out_stride);
+void read_floats(const Elements& elements, std::span<const std::uint32_t> subset, std::size_t wanted,
+                 float* out, std::size_t out_stride);
 
 // The same for an accessor, sparse values included.
 void read_floats(const tinygltf::Accessor& accessor, Buffers& buffers, std::span<const std::uint32_t> subset,

@@ -41,13 +41,15 @@ Buffers::Buffers(Json& document, const Container& container, const Context& cont
         } else {
             const bool fallback = member_of(buffer, "extensions").contains("EXT_meshopt_compression");
             if (!fallback)
-                warn(context, where, container.binary && i == 0 ? "has no uri, and the GLB has no BIN chunk"
-                                                                : "has no uri, so its content is unknown");
+                warn(context, where,
+                     container.binary && i == 0 ? "has no uri, and the GLB has no BIN chunk"
+                                                : "has no uri, so its content is unknown");
             continue;
         }
         if (bytes.size() < length)
-            fail(context, where + ".byteLength", "is " + std::to_string(length) + ", but there are only " +
-                                                     std::to_string(bytes.size()) + " bytes: the data is cut off");
+            fail(context, where + ".byteLength",
+                 "is " + std::to_string(length) + ", but there are only " + std::to_string(bytes.size()) +
+                     " bytes: the data is cut off");
         buffers_[i] = bytes.first(length);
     }
 
@@ -55,7 +57,8 @@ Buffers::Buffers(Json& document, const Container& container, const Context& cont
         View out{integer_of(view, "buffer"), integer_of(view, "byteOffset"), integer_of(view, "byteLength"),
                  integer_of(view, "byteStride"), nullptr};
         const Json& extensions = member_of(view, "extensions");
-        if (extensions.contains("EXT_meshopt_compression")) out.meshopt = extensions["EXT_meshopt_compression"];
+        if (extensions.contains("EXT_meshopt_compression"))
+            out.meshopt = extensions["EXT_meshopt_compression"];
         views_.push_back(std::move(out));
     }
 }
@@ -76,9 +79,9 @@ std::span<const std::byte> Buffers::view(std::size_t index) {
     claim_compressed(integer_of(view.meshopt, "byteLength"), where);
     const MeshoptView settings{integer_of(view.meshopt, "count"), integer_of(view.meshopt, "byteStride"),
                                view.meshopt["mode"], view.meshopt.value("filter", "NONE")};
-    std::vector<std::byte> bytes =
-        decode_meshopt(settings, range(integer_of(view.meshopt, "buffer"), integer_of(view.meshopt, "byteOffset"),
-                                       integer_of(view.meshopt, "byteLength"), where));
+    std::vector<std::byte> bytes = decode_meshopt(
+        settings, range(integer_of(view.meshopt, "buffer"), integer_of(view.meshopt, "byteOffset"),
+                        integer_of(view.meshopt, "byteLength"), where));
     if (bytes.size() != view.length)
         fail(context_, where + ".extensions.EXT_meshopt_compression", "the compressed data is damaged");
     return decoded_.emplace(index, std::move(bytes)).first->second;

@@ -11,18 +11,28 @@ namespace {
 
 // Required extensions that are read, or that change neither geometry nor base colour. A '*' at the end
 // stands for any rest.
-constexpr std::array<std::string_view, 14> accepted_extensions{
-    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization", "KHR_texture_transform",
-    "EXT_mesh_gpu_instancing",    "EXT_texture_webp",        "KHR_materials_*",       "KHR_lights_punctual",
-    "KHR_xmp*",                   "KHR_animation_pointer",   "EXT_lights_*",          "KHR_audio*",
-    "MSFT_lod",                   "MSFT_packing_*"};
+constexpr std::array<std::string_view, 14> accepted_extensions{"KHR_draco_mesh_compression",
+                                                               "EXT_meshopt_compression",
+                                                               "KHR_mesh_quantization",
+                                                               "KHR_texture_transform",
+                                                               "EXT_mesh_gpu_instancing",
+                                                               "EXT_texture_webp",
+                                                               "KHR_materials_*",
+                                                               "KHR_lights_punctual",
+                                                               "KHR_xmp*",
+                                                               "KHR_animation_pointer",
+                                                               "EXT_lights_*",
+                                                               "KHR_audio*",
+                                                               "MSFT_lod",
+                                                               "MSFT_packing_*"};
 
 bool is_accepted(std::string_view name) {
-    return std::any_of(accepted_extensions.begin(), accepted_extensions.end(), [&](std::string_view accepted) {
-        if (accepted.back() != '*') return accepted == name;
-        accepted.remove_suffix(1);
-        return name.substr(0, accepted.size()) == accepted;
-    });
+    return std::any_of(accepted_extensions.begin(), accepted_extensions.end(),
+                       [&](std::string_view accepted) {
+                           if (accepted.back() != '*') return accepted == name;
+                           accepted.remove_suffix(1);
+                           return name.substr(0, accepted.size()) == accepted;
+                       });
 }
 
 struct Version {
@@ -79,8 +89,9 @@ const AttributeRule* rule_for(std::span<const AttributeRule> rules, std::string_
         }
         if (name.substr(0, rule.name.size()) != rule.name) continue;
         const std::string_view set = name.substr(rule.name.size());
-        const bool number = !set.empty() && set.size() < 4 && (set == "0" || set.front() != '0') &&
-                            std::all_of(set.begin(), set.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+        const bool number =
+            !set.empty() && set.size() < 4 && (set == "0" || set.front() != '0') &&
+            std::all_of(set.begin(), set.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
         if (number) return &rule;
     }
     return nullptr;
@@ -104,7 +115,8 @@ void check_attributes(const Json& document, const Json& attributes, std::span<co
         const std::string place = where + "." + name;
         const AttributeRule* rule = rule_for(rules, name);
         if (rule == nullptr) {
-            if (name.empty() || name.front() != '_') warn(context, place, "is not an attribute that glTF knows");
+            if (name.empty() || name.front() != '_')
+                warn(context, place, "is not an attribute that glTF knows");
             continue;
         }
         const Json& accessor = document["accessors"][index.get<std::size_t>()];
@@ -113,10 +125,12 @@ void check_attributes(const Json& document, const Json& attributes, std::span<co
         if (!is_one_of(rule->types, type))
             fail(context, place, "has type " + type + " instead of " + std::string(rule->types));
         if ((rule->components & 1U << (component - 5120)) == 0)
-            fail(context, place, "has component type " + std::to_string(component) + ", which is not allowed");
+            fail(context, place,
+                 "has component type " + std::to_string(component) + ", which is not allowed");
         if (integer_of(accessor, "count") != count)
-            fail(context, place, "has " + std::to_string(integer_of(accessor, "count")) + " elements, the others " +
-                                     std::to_string(count));
+            fail(context, place,
+                 "has " + std::to_string(integer_of(accessor, "count")) + " elements, the others " +
+                     std::to_string(count));
         const Json& views = member_of(document, "bufferViews");
         const std::uint64_t offset = integer_of(accessor, "byteOffset");
         if (accessor.contains("bufferView")) {
@@ -128,7 +142,8 @@ void check_attributes(const Json& document, const Json& attributes, std::span<co
     }
 }
 
-void check_indices(const Json& document, const Json& primitive, const std::string& where, const Context& context) {
+void check_indices(const Json& document, const Json& primitive, const std::string& where,
+                   const Context& context) {
     const std::uint64_t index = integer_of(primitive, "indices");
     const Json& accessor = document["accessors"][index];
     const std::uint64_t type = integer_of(accessor, "componentType");
@@ -181,8 +196,9 @@ void check_primitive(const Json& document, const Json& primitive, const std::str
             if (name.rfind(prefix, 0) == 0 && rule_for(attribute_rules, name) != nullptr) ++sets;
         for (std::size_t i = 0; i < sets; ++i)
             if (!attributes.contains(prefix + std::to_string(i)))
-                warn(context, where + ".attributes", "has " + std::to_string(sets) + " " + prefix +
-                                                         "n, but no " + prefix + std::to_string(i));
+                warn(context, where + ".attributes",
+                     "has " + std::to_string(sets) + " " + prefix + "n, but no " + prefix +
+                         std::to_string(i));
         return sets;
     };
     (void)set_count("TEXCOORD_");
@@ -227,7 +243,8 @@ void check_meshes(const Json& document, const Context& context) {
         if (attributes.empty()) continue;
         const std::uint64_t first = attributes.begin()->get<std::uint64_t>();
         for (const Json& index : attributes) check_claim(document, index.get<std::uint64_t>(), context);
-        check_attributes(document, attributes, instance_rules, integer_of(document["accessors"][first], "count"),
+        check_attributes(document, attributes, instance_rules,
+                         integer_of(document["accessors"][first], "count"),
                          at("nodes", i) + ".extensions.EXT_mesh_gpu_instancing.attributes", context);
     }
 }
@@ -242,12 +259,14 @@ void check_skins(const Json& document, const Context& context) {
         if (accessor["type"] != "MAT4" || integer_of(accessor, "componentType") != 5126)
             fail(context, where, at("accessors", index) + " is not a MAT4 of floats");
         if (integer_of(accessor, "count") < skins[i]["joints"].size())
-            fail(context, where, at("accessors", index) + " has " + std::to_string(integer_of(accessor, "count")) +
-                                     " matrices for " + std::to_string(skins[i]["joints"].size()) + " joints");
+            fail(context, where,
+                 at("accessors", index) + " has " + std::to_string(integer_of(accessor, "count")) +
+                     " matrices for " + std::to_string(skins[i]["joints"].size()) + " joints");
         if (!accessor.contains("bufferView")) continue;
         const std::uint64_t view = integer_of(accessor, "bufferView");
         if (document["bufferViews"][view].contains("byteStride"))
-            fail(context, where, at("bufferViews", view) + " has a byteStride, which these matrices must not have");
+            fail(context, where,
+                 at("bufferViews", view) + " has a byteStride, which these matrices must not have");
     }
 }
 
@@ -257,8 +276,8 @@ void check_animations(const Json& document, const Context& context) {
         for (std::size_t j = 0; j < animations[i]["channels"].size(); ++j)
             if (integer_of(animations[i]["channels"][j], "sampler") >= animations[i]["samplers"].size())
                 fail(context, at("animations", i) + "." + at("channels", j) + ".sampler",
-                     "is out of range (the animation has " + std::to_string(animations[i]["samplers"].size()) +
-                         " samplers)");
+                     "is out of range (the animation has " +
+                         std::to_string(animations[i]["samplers"].size()) + " samplers)");
 }
 
 } // namespace spa::import::gltf

@@ -14,8 +14,8 @@ void check_range(const Context& context, const std::string& where, std::uint64_t
                  const std::string& container, std::uint64_t size) {
     if (offset <= size && length <= size - offset) return;
     fail(context, where,
-         "needs bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) + " of " + container +
-             ", which has " + bytes_text(size));
+         "needs bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) + " of " +
+             container + ", which has " + bytes_text(size));
 }
 
 // The lower bounds are those of the codecs: an encoded vertex takes at least 2 bits for each 16 bytes
@@ -42,8 +42,9 @@ void check_meshopt(const Json& document, const Json& view, const Json& extension
         fail(context, where + ".count",
              "claims " + std::to_string(count) + " elements, which " + bytes_text(length) + " cannot hold");
     if (integer_of(view, "byteLength") != stride * count)
-        fail(context, where, "decodes to " + bytes_text(stride * count) + ", but the buffer view has " +
-                                 bytes_text(integer_of(view, "byteLength")));
+        fail(context, where,
+             "decodes to " + bytes_text(stride * count) + ", but the buffer view has " +
+                 bytes_text(integer_of(view, "byteLength")));
 }
 
 void check_sparse(const Json& document, const Json& accessor, std::size_t element, const std::string& where,
@@ -51,8 +52,9 @@ void check_sparse(const Json& document, const Json& accessor, std::size_t elemen
     const Json& sparse = accessor["sparse"];
     const std::uint64_t count = integer_of(sparse, "count");
     if (count == 0 || count > integer_of(accessor, "count"))
-        fail(context, where + ".count", "is " + std::to_string(count) + ", the accessor has " +
-                                            std::to_string(integer_of(accessor, "count")) + " elements");
+        fail(context, where + ".count",
+             "is " + std::to_string(count) + ", the accessor has " +
+                 std::to_string(integer_of(accessor, "count")) + " elements");
     const auto check_part = [&](const char* name, std::size_t size) {
         const Json& part = sparse[name];
         const std::uint64_t view = integer_of(part, "bufferView");
@@ -76,13 +78,13 @@ void check_accessor(const Json& document, std::size_t index, const Context& cont
     const bool float_or_int = type == 5126 || type == 5125;
     if (count == 0) fail(context, where + ".count", "is 0");
     if (accessor.value("normalized", false) && float_or_int)
-        warn(context, where + ".normalized", "is true for component type " + std::to_string(type) +
-                                                 ", which cannot be normalized");
+        warn(context, where + ".normalized",
+             "is true for component type " + std::to_string(type) + ", which cannot be normalized");
     for (const char* bound : {"min", "max"})
         if (accessor.contains(bound) && accessor[bound].size() != components)
-            fail(context, where + "." + bound, "has " + std::to_string(accessor[bound].size()) +
-                                                   " elements, the accessor's have " +
-                                                   std::to_string(components));
+            fail(context, where + "." + bound,
+                 "has " + std::to_string(accessor[bound].size()) + " elements, the accessor's have " +
+                     std::to_string(components));
     if (accessor.contains("sparse")) check_sparse(document, accessor, element, where + ".sparse", context);
     if (!accessor.contains("bufferView")) return;
 
@@ -91,8 +93,9 @@ void check_accessor(const Json& document, std::size_t index, const Context& cont
     const Json& view = document["bufferViews"][view_index];
     const std::uint64_t stride = integer_of(view, "byteStride", element);
     if (stride < element)
-        fail(context, where, at("bufferViews", view_index) + ".byteStride is " + std::to_string(stride) +
-                                 ", smaller than an element of " + bytes_text(element));
+        fail(context, where,
+             at("bufferViews", view_index) + ".byteStride is " + std::to_string(stride) +
+                 ", smaller than an element of " + bytes_text(element));
     if ((offset + integer_of(view, "byteOffset")) % component != 0 || offset % component != 0 ||
         stride % component != 0)
         warn(context, where, "is not aligned to its component size of " + bytes_text(component));
@@ -124,7 +127,8 @@ const Json& member_of(const Json& object, const char* key) {
 void check_buffer_views(const Json& document, const Context& context) {
     const Json& buffers = member_of(document, "buffers");
     for (std::size_t i = 0; i < buffers.size(); ++i)
-        if (integer_of(buffers[i], "byteLength") == 0) fail(context, at("buffers", i) + ".byteLength", "is 0");
+        if (integer_of(buffers[i], "byteLength") == 0)
+            fail(context, at("buffers", i) + ".byteLength", "is 0");
 
     const Json& views = member_of(document, "bufferViews");
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -140,7 +144,8 @@ void check_buffer_views(const Json& document, const Context& context) {
                 fail(context, where + ".byteStride",
                      "is " + std::to_string(stride) + ", not a multiple of 4 from 4 to 252");
             if (stride > length)
-                warn(context, where + ".byteStride", "is greater than the byteLength of " + std::to_string(length));
+                warn(context, where + ".byteStride",
+                     "is greater than the byteLength of " + std::to_string(length));
         }
         const Json& extensions = member_of(view, "extensions");
         if (extensions.contains("EXT_meshopt_compression"))
@@ -150,7 +155,8 @@ void check_buffer_views(const Json& document, const Context& context) {
 }
 
 void check_accessors(const Json& document, const Context& context) {
-    for (std::size_t i = 0; i < member_of(document, "accessors").size(); ++i) check_accessor(document, i, context);
+    for (std::size_t i = 0; i < member_of(document, "accessors").size(); ++i)
+        check_accessor(document, i, context);
 }
 
 void check_images(const Json& document, const Context& context) {
@@ -158,11 +164,12 @@ void check_images(const Json& document, const Context& context) {
     for (std::size_t i = 0; i < images.size(); ++i) {
         const std::string where = at("images", i);
         const bool uri = images[i].contains("uri"), view = images[i].contains("bufferView");
-        if (uri == view) fail(context, where, uri ? "has both a uri and a bufferView" : "has no uri and no bufferView");
-        if (view && !images[i].contains("mimeType"))
-            warn(context, where, "has a bufferView but no mimeType");
+        if (uri == view)
+            fail(context, where, uri ? "has both a uri and a bufferView" : "has no uri and no bufferView");
+        if (view && !images[i].contains("mimeType")) warn(context, where, "has a bufferView but no mimeType");
         if (uri && images[i]["uri"].get_ref<const std::string&>().rfind("data:", 0) != 0)
-            (void)resolve_reference(context.path, images[i]["uri"].get_ref<const std::string&>(), Encoding::uri);
+            (void)resolve_reference(context.path, images[i]["uri"].get_ref<const std::string&>(),
+                                    Encoding::uri);
     }
 }
 

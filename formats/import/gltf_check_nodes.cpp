@@ -17,7 +17,8 @@ void check_transform(const Json& node, const std::string& where, const Context& 
             std::abs(row[3] - 1.0) > slack)
             fail(context, where + ".matrix", "is not affine: its last row is not 0 0 0 1");
         for (const char* other : {"translation", "rotation", "scale"})
-            if (node.contains(other)) warn(context, where, std::string("has a matrix; its ") + other + " is ignored");
+            if (node.contains(other))
+                warn(context, where, std::string("has a matrix; its ") + other + " is ignored");
     }
     if (node.contains("rotation")) {
         double square = 0;
@@ -46,8 +47,8 @@ public:
             }
             const auto child = children[frame.next++].get<std::size_t>();
             if (state_[child] == State::open)
-                fail(context_, at("nodes", frame.node) + ".children", "node " + std::to_string(child) +
-                                                                         " is its own descendant: a loop");
+                fail(context_, at("nodes", frame.node) + ".children",
+                     "node " + std::to_string(child) + " is its own descendant: a loop");
             if (state_[child] == State::unseen)
                 enter(child, stack);
             else
@@ -79,8 +80,9 @@ private:
     void raise(std::size_t node, std::uint32_t height) {
         if (height > height_[node]) height_[node] = height;
         if (height > context_.limits.node_depth)
-            fail(context_, at("nodes", node), "the hierarchy below is deeper than the limit of " +
-                                                  std::to_string(context_.limits.node_depth));
+            fail(context_, at("nodes", node),
+                 "the hierarchy below is deeper than the limit of " +
+                     std::to_string(context_.limits.node_depth));
     }
 };
 

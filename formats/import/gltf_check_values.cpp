@@ -86,7 +86,8 @@ void check_colors(const tinygltf::Model& model, Buffers& buffers, const Context&
                 const tinygltf::Accessor& accessor = model.accessors[i];
                 if (name.rfind("COLOR_", 0) != 0 || seen[i]) continue;
                 seen[i] = true;
-                if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT || accessor.bufferView < 0) continue;
+                if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT || accessor.bufferView < 0)
+                    continue;
                 const Bounds bounds = bounds_of(elements_of(accessor, buffers));
                 if (*std::min_element(bounds.lower.begin(), bounds.lower.end()) < 0.0 ||
                     *std::max_element(bounds.upper.begin(), bounds.upper.end()) > 1.0)
@@ -102,7 +103,8 @@ void check_animation_times(const Json& document, const tinygltf::Model& model, B
         for (std::size_t j = 0; j < samplers.size(); ++j) {
             const tinygltf::Accessor& accessor = model.accessors[integer_of(samplers[j], "input")];
             const std::string where = at("animations", i) + "." + at("samplers", j) + ".input";
-            if (accessor.type != TINYGLTF_TYPE_SCALAR || accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+            if (accessor.type != TINYGLTF_TYPE_SCALAR ||
+                accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
                 warn(context, where, "is not a SCALAR of floats");
                 continue;
             }

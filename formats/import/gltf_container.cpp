@@ -42,7 +42,8 @@ void check_nesting(std::string_view json, const Context& context) {
             }
         } else if (c == '{' || c == '[') {
             if (++depth > max_nesting)
-                fail(context, "", "the JSON is nested deeper than " + std::to_string(max_nesting) + " levels");
+                fail(context, "",
+                     "the JSON is nested deeper than " + std::to_string(max_nesting) + " levels");
         } else if (c == '}' || c == ']') {
             --depth;
         }
@@ -59,10 +60,11 @@ Container split_glb(std::span<const std::byte> file, const Context& context) {
         fail(context, "GLB header", "length is " + std::to_string(length) + ", too small for a JSON chunk");
     if (length > file.size())
         fail(context, "GLB header",
-             "length is " + std::to_string(length) + ", but the file has only " + std::to_string(file.size()) +
-                 " bytes: it is cut off");
+             "length is " + std::to_string(length) + ", but the file has only " +
+                 std::to_string(file.size()) + " bytes: it is cut off");
     if (length < file.size())
-        warn(context, "GLB header", std::to_string(file.size() - length) + " bytes after the end are ignored");
+        warn(context, "GLB header",
+             std::to_string(file.size() - length) + " bytes after the end are ignored");
 
     Container container;
     container.binary = true;
@@ -71,7 +73,8 @@ Container split_glb(std::span<const std::byte> file, const Context& context) {
     std::size_t at_byte = header_bytes;
     for (std::size_t chunk = 0; at_byte < body.size(); ++chunk) {
         const std::string where = "GLB " + at("chunk", chunk);
-        if (body.size() - at_byte < chunk_header_bytes) fail(context, where, "the file ends within its header");
+        if (body.size() - at_byte < chunk_header_bytes)
+            fail(context, where, "the file ends within its header");
         const std::uint32_t size = read_u32(body, at_byte);
         const std::uint32_t type = read_u32(body, at_byte + 4);
         at_byte += chunk_header_bytes;

@@ -28,7 +28,9 @@ struct Header {
 
 Header read_header(std::span<const std::byte> bytes) {
     Header header;
-    const auto u8 = [&](std::size_t i) { return i < bytes.size() ? std::to_integer<unsigned>(bytes[i]) : 0U; };
+    const auto u8 = [&](std::size_t i) {
+        return i < bytes.size() ? std::to_integer<unsigned>(bytes[i]) : 0U;
+    };
     header.geometry = u8(7);
     if (bytes.size() < 12 || u8(5) != 2 || u8(6) < 2 || (u8(10) & 0x80U) != 0) return header;
     std::size_t i = 11;
@@ -90,20 +92,23 @@ DracoMesh decode_draco(const tinygltf::Model& model, const tinygltf::Primitive& 
     const std::span<const std::byte> bytes =
         buffers.view(static_cast<std::size_t>(extension.Get("bufferView").GetNumberAsInt()));
     buffers.claim_compressed(bytes.size(), place);
-    const std::size_t claimed = model.accessors[static_cast<std::size_t>(primitive.attributes.at("POSITION"))].count;
+    const std::size_t claimed =
+        model.accessors[static_cast<std::size_t>(primitive.attributes.at("POSITION"))].count;
 
     const Header header = read_header(bytes);
     if (header.geometry != draco::TRIANGULAR_MESH) fail(context, place, "the data is not a Draco mesh");
     if (header.triangles && *header.triangles > max_triangles_per_byte * bytes.size())
-        fail(context, place, "the data claims " + std::to_string(*header.triangles) + " triangles in " +
-                                 std::to_string(bytes.size()) + " bytes");
+        fail(context, place,
+             "the data claims " + std::to_string(*header.triangles) + " triangles in " +
+                 std::to_string(bytes.size()) + " bytes");
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     std::unique_ptr<draco::Mesh> mesh;
     try {
         draco::Decoder decoder;
         auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-        if (!decoded.ok()) fail(context, place, "the data is damaged: " + decoded.status().error_msg_string());
+        if (!decoded.ok())
+            fail(context, place, "the data is damaged: " + decoded.status().error_msg_string());
         mesh = std::move(decoded).value();
     } catch (const std::bad_alloc&) {
         fail(context, place, "the data claims more memory than there is");
@@ -114,8 +119,9 @@ DracoMesh decode_draco(const tinygltf::Model& model, const tinygltf::Primitive& 
     DracoMesh result;
     result.vertices = mesh->num_points();
     if (result.vertices != claimed)
-        fail(context, place, "the data has " + std::to_string(result.vertices) + " vertices, the accessors " +
-                                 std::to_string(claimed));
+        fail(context, place,
+             "the data has " + std::to_string(result.vertices) + " vertices, the accessors " +
+                 std::to_string(claimed));
     result.indices.reserve(std::size_t{mesh->num_faces()} * 3);
     for (draco::FaceIndex face(0); face < mesh->num_faces(); ++face)
         for (const draco::PointIndex& point : mesh->face(face)) result.indices.push_back(point.value());

@@ -31,7 +31,8 @@ std::optional<std::vector<std::byte>> decode_head(std::string_view uri) {
 
 } // namespace
 
-Images::Images(Json& document, Buffers& buffers, const Context& context) : buffers_(buffers), context_(context) {
+Images::Images(Json& document, Buffers& buffers, const Context& context)
+    : buffers_(buffers), context_(context) {
     const auto found = document.find("images");
     if (found == document.end()) return;
     for (Json& image : *found) {
@@ -114,7 +115,8 @@ void Images::check_unused() {
         const ImageKind kind = image_kind(bytes);
         if (kind == ImageKind::unknown) warn(context_, where, "is not an image of a known format");
         // In a longer file the header may come after what was read.
-        const bool has_header = kind == ImageKind::png || (kind == ImageKind::jpeg && bytes.size() < head_bytes / 2);
+        const bool has_header =
+            kind == ImageKind::png || (kind == ImageKind::jpeg && bytes.size() < head_bytes / 2);
         if (has_header && read_image_header(bytes).width == 0) warn(context_, where, "is a damaged image");
     }
 }

@@ -30,7 +30,8 @@ void apply_transform(const tinygltf::Value& extension, UvSource& uv) {
     uv.matrix = {c * sx,  s * sy, element(extension, "offset", 0, 0.0),
                  -s * sx, c * sy, element(extension, "offset", 1, 0.0)};
     uv.identity = false;
-    if (extension.Has("texCoord")) uv.set = static_cast<std::size_t>(extension.Get("texCoord").GetNumberAsInt());
+    if (extension.Has("texCoord"))
+        uv.set = static_cast<std::size_t>(extension.Get("texCoord").GetNumberAsInt());
 }
 
 TextureUse base_color_texture(const tinygltf::Material& material) {
@@ -54,7 +55,8 @@ TextureUse base_color_texture(const tinygltf::Material& material) {
     return use;
 }
 
-Vec4f base_color_factor(const tinygltf::Material& material, const std::string& where, const Context& context) {
+Vec4f base_color_factor(const tinygltf::Material& material, const std::string& where,
+                        const Context& context) {
     std::array<double, 4> factor{1, 1, 1, 1};
     const auto gloss = material.extensions.find("KHR_materials_pbrSpecularGlossiness");
     const std::vector<double>& values = material.pbrMetallicRoughness.baseColorFactor;
@@ -63,7 +65,8 @@ Vec4f base_color_factor(const tinygltf::Material& material, const std::string& w
             factor[i] = element(gloss->second, "diffuseFactor", static_cast<int>(i), 1.0);
         else if (values.size() == 4)
             factor[i] = values[i];
-        if (factor[i] < 0 || factor[i] > 1) warn(context, where, "the base colour is outside [0, 1] and clamped");
+        if (factor[i] < 0 || factor[i] > 1)
+            warn(context, where, "the base colour is outside [0, 1] and clamped");
         factor[i] = std::clamp(factor[i], 0.0, 1.0);
     }
     return {static_cast<float>(factor[0]), static_cast<float>(factor[1]), static_cast<float>(factor[2]),
@@ -110,7 +113,8 @@ Materials::Materials(const tinygltf::Model& model, const std::vector<bool>& used
         uv_.push_back(use.uv);
         if (use.texture >= 0 && used[i]) {
             const tinygltf::Texture& texture = model.textures[static_cast<std::size_t>(use.texture)];
-            const int image = image_of(texture, at("textures", static_cast<std::size_t>(use.texture)), context);
+            const int image =
+                image_of(texture, at("textures", static_cast<std::size_t>(use.texture)), context);
             if (image >= 0) to.texture = images.texture(static_cast<std::size_t>(image), out);
             if (texture.sampler >= 0) {
                 const tinygltf::Sampler& sampler = model.samplers[static_cast<std::size_t>(texture.sampler)];

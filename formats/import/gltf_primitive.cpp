@@ -79,7 +79,9 @@ struct Drawing {
     [[nodiscard]] std::span<Vec3f> positions() const {
         return std::span(assembly.out.positions).subspan(base, count);
     }
-    [[nodiscard]] std::span<Vec3f> normals() const { return std::span(assembly.out.normals).subspan(base, count); }
+    [[nodiscard]] std::span<Vec3f> normals() const {
+        return std::span(assembly.out.normals).subspan(base, count);
+    }
 };
 
 const DracoMesh* draco_of(Drawing& drawing, std::size_t number) {
@@ -87,10 +89,11 @@ const DracoMesh* draco_of(Drawing& drawing, std::size_t number) {
     const std::pair key{static_cast<std::size_t>(drawing.node.mesh), number};
     auto found = drawing.assembly.draco.find(key);
     if (found == drawing.assembly.draco.end())
-        found = drawing.assembly.draco
-                    .emplace(key, decode_draco(drawing.assembly.model, drawing.primitive, drawing.assembly.buffers,
-                                               drawing.where, drawing.assembly.context))
-                    .first;
+        found =
+            drawing.assembly.draco
+                .emplace(key, decode_draco(drawing.assembly.model, drawing.primitive,
+                                           drawing.assembly.buffers, drawing.where, drawing.assembly.context))
+                .first;
     return &found->second;
 }
 
@@ -101,8 +104,12 @@ void append_indices(Drawing& drawing, const DracoMesh* draco, std::size_t vertic
     const Elements* used = nullptr;
     int mode = drawing.primitive.mode;
     if (draco != nullptr) {
-        indices = {std::as_bytes(std::span(draco->indices)), sizeof(std::uint32_t), draco->indices.size(),
-                   TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, 1, false};
+        indices = {std::as_bytes(std::span(draco->indices)),
+                   sizeof(std::uint32_t),
+                   draco->indices.size(),
+                   TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                   1,
+                   false};
         used = &indices;
         mode = TINYGLTF_MODE_TRIANGLES; // Draco stores single triangles, whatever the strip was
     } else if (drawing.primitive.indices >= 0) {
@@ -115,7 +122,8 @@ void append_indices(Drawing& drawing, const DracoMesh* draco, std::size_t vertic
 
 // The joints' weights, if the drawing is skinned.
 std::optional<VertexWeights> read_weights(const Drawing& drawing, const Attributes& attributes) {
-    if (drawing.node.skin < 0 || !attributes.has("JOINTS_0") || !attributes.has("WEIGHTS_0")) return std::nullopt;
+    if (drawing.node.skin < 0 || !attributes.has("JOINTS_0") || !attributes.has("WEIGHTS_0"))
+        return std::nullopt;
     VertexWeights weights;
     const auto joints = [](std::size_t set) { return "JOINTS_" + std::to_string(set); };
     const auto shares = [](std::size_t set) { return "WEIGHTS_" + std::to_string(set); };
@@ -152,13 +160,15 @@ void normalize_in_place(std::span<Vec3f> normals) {
 }
 
 // Places the vertices; `mirrored[v]` where the surface there is turned inside out.
-void pose(Drawing& drawing, const Attributes& attributes, bool has_normals, std::vector<std::uint8_t>& mirrored) {
+void pose(Drawing& drawing, const Attributes& attributes, bool has_normals,
+          std::vector<std::uint8_t>& mirrored) {
     const std::optional<VertexWeights> weights = read_weights(drawing, attributes);
     const std::span<Vec3f> positions = drawing.positions();
     const std::span<Vec3f> normals = has_normals ? drawing.normals() : std::span<Vec3f>{};
     if (weights) {
         const std::span<const Affine> joints = joints_of(drawing);
-        check_weights(*weights, joints.size(), drawing.where + ".attributes.JOINTS_0", drawing.assembly.context);
+        check_weights(*weights, joints.size(), drawing.where + ".attributes.JOINTS_0",
+                      drawing.assembly.context);
         mirrored.resize(positions.size());
         for (std::size_t v = 0; v < positions.size(); ++v) {
             const Affine map = weights->blend(v, joints, drawing.instance.world);
@@ -186,7 +196,8 @@ bool read_uvs(Drawing& drawing, const Attributes& attributes, std::uint32_t mate
     const std::string name = "TEXCOORD_" + std::to_string(source.set);
     if (!attributes.has(name)) {
         warn(drawing.assembly.context, drawing.where + ".attributes",
-             "has no " + name + ", which the base colour texture of its material needs: drawn without texture");
+             "has no " + name +
+                 ", which the base colour texture of its material needs: drawn without texture");
         return false;
     }
     out.uvs.resize(drawing.base + drawing.count);
@@ -197,7 +208,8 @@ bool read_uvs(Drawing& drawing, const Attributes& attributes, std::uint32_t mate
     for (Vec2f& uv : uvs) {
         if (!source.identity) {
             const double u = double(uv.x), v = double(uv.y);
-            uv = {static_cast<float>(m[0] * u + m[1] * v + m[2]), static_cast<float>(m[3] * u + m[4] * v + m[5])};
+            uv = {static_cast<float>(m[0] * u + m[1] * v + m[2]),
+                  static_cast<float>(m[3] * u + m[4] * v + m[5])};
         }
         if (std::isfinite(uv.x) && std::isfinite(uv.y)) continue;
         uv = {};
@@ -221,7 +233,8 @@ void read_colors(Drawing& drawing, const Attributes& attributes) {
     if (attributes.is_unscaled_integer("COLOR_0")) {
         warn(context, where, "has integers that are not normalized; they are read as if they were");
         const tinygltf::Accessor& accessor =
-            drawing.assembly.model.accessors[static_cast<std::size_t>(drawing.primitive.attributes.at("COLOR_0"))];
+            drawing.assembly.model
+                .accessors[static_cast<std::size_t>(drawing.primitive.attributes.at("COLOR_0"))];
         scale = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ? 1.0F / 255 : 1.0F / 65535;
         if (accessor.type == TINYGLTF_TYPE_VEC3)
             for (Vec4f& color : colors) color.w = 1.0F / scale;
@@ -246,7 +259,8 @@ bool is_drawn(const tinygltf::Primitive& primitive) {
 }
 
 Size size_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
-    const std::uint64_t vertices = model.accessors[static_cast<std::size_t>(primitive.attributes.at("POSITION"))].count;
+    const std::uint64_t vertices =
+        model.accessors[static_cast<std::size_t>(primitive.attributes.at("POSITION"))].count;
     std::uint64_t corners = vertices;
     if (primitive.indices >= 0) corners = model.accessors[static_cast<std::size_t>(primitive.indices)].count;
     Size size;
@@ -261,16 +275,19 @@ void append_primitive(Assembly& assembly, const Instance& instance, std::size_t 
     const tinygltf::Mesh& mesh = assembly.model.meshes[static_cast<std::size_t>(node.mesh)];
     const tinygltf::Primitive& primitive = mesh.primitives[number];
     Model& out = assembly.out;
-    Drawing drawing{assembly, mesh, node, primitive, instance,
-                    at("meshes", static_cast<std::size_t>(node.mesh)) + "." + at("primitives", number)};
+    Drawing drawing{
+        assembly, mesh,
+        node,     primitive,
+        instance, at("meshes", static_cast<std::size_t>(node.mesh)) + "." + at("primitives", number)};
     drawing.base = out.positions.size();
     drawing.first = out.triangles.size();
 
     const DracoMesh* draco = draco_of(drawing, number);
     Attributes attributes(assembly, primitive, draco);
     const std::size_t vertices =
-        draco != nullptr ? draco->vertices
-                         : assembly.model.accessors[static_cast<std::size_t>(primitive.attributes.at("POSITION"))].count;
+        draco != nullptr
+            ? draco->vertices
+            : assembly.model.accessors[static_cast<std::size_t>(primitive.attributes.at("POSITION"))].count;
     append_indices(drawing, draco, vertices);
     const std::size_t triangles = out.triangles.size() - drawing.first;
     if (triangles == 0) return;
@@ -281,7 +298,8 @@ void append_primitive(Assembly& assembly, const Instance& instance, std::size_t 
     const Limits& limits = assembly.context.limits;
     if (out.triangles.size() > limits.triangles || drawing.base + drawing.count > limits.vertices ||
         drawing.base + 3 * triangles > no_index)
-        fail(assembly.context, drawing.where, "the scene has more vertices or triangles than the limits allow");
+        fail(assembly.context, drawing.where,
+             "the scene has more vertices or triangles than the limits allow");
 
     out.positions.resize(drawing.base + drawing.count);
     attributes.floats("POSITION", 3, &drawing.positions()[0].x);

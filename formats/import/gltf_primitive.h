@@ -19,8 +19,8 @@ struct Assembly {
     Materials& materials;
     Model& out;
     const Context& context;
-    std::vector<Affine> globals;                              // of the nodes
-    std::map<int, std::vector<Affine>> skins;                 // joint matrices, by skin, when first used
+    std::vector<Affine> globals;              // of the nodes
+    std::map<int, std::vector<Affine>> skins; // joint matrices, by skin, when first used
     std::map<std::pair<std::size_t, std::size_t>, DracoMesh> draco; // by mesh and primitive
 };
 

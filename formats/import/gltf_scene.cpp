@@ -18,9 +18,12 @@ Affine from_trs(Vec3d t, Quaternion q, Vec3d s) {
     const double norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
     const double k = norm > 0 ? 2.0 / norm : 0.0; // any length, so normalised here
     Affine map;
-    map.linear.row[0] = {1 - k * (q.y * q.y + q.z * q.z), k * (q.x * q.y - q.z * q.w), k * (q.x * q.z + q.y * q.w)};
-    map.linear.row[1] = {k * (q.x * q.y + q.z * q.w), 1 - k * (q.x * q.x + q.z * q.z), k * (q.y * q.z - q.x * q.w)};
-    map.linear.row[2] = {k * (q.x * q.z - q.y * q.w), k * (q.y * q.z + q.x * q.w), 1 - k * (q.x * q.x + q.y * q.y)};
+    map.linear.row[0] = {1 - k * (q.y * q.y + q.z * q.z), k * (q.x * q.y - q.z * q.w),
+                         k * (q.x * q.z + q.y * q.w)};
+    map.linear.row[1] = {k * (q.x * q.y + q.z * q.w), 1 - k * (q.x * q.x + q.z * q.z),
+                         k * (q.y * q.z - q.x * q.w)};
+    map.linear.row[2] = {k * (q.x * q.z - q.y * q.w), k * (q.y * q.z + q.x * q.w),
+                         1 - k * (q.x * q.x + q.y * q.y)};
     for (Vec3d& row : map.linear.row) row = {row.x * s.x, row.y * s.y, row.z * s.z};
     map.translation = t;
     return map;
@@ -37,14 +40,15 @@ Affine local_transform(const tinygltf::Node& node) {
     Vec3d t{}, s{1, 1, 1};
     Quaternion q;
     if (node.translation.size() == 3) t = {node.translation[0], node.translation[1], node.translation[2]};
-    if (node.rotation.size() == 4) q = {node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]};
+    if (node.rotation.size() == 4)
+        q = {node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]};
     if (node.scale.size() == 3) s = {node.scale[0], node.scale[1], node.scale[2]};
     return from_trs(t, q, s);
 }
 
 // The transforms of EXT_mesh_gpu_instancing, relative to the node.
-std::vector<Affine> gpu_instances(const tinygltf::Model& model, const tinygltf::Value& extension, Buffers& buffers,
-                                  const Context& context) {
+std::vector<Affine> gpu_instances(const tinygltf::Model& model, const tinygltf::Value& extension,
+                                  Buffers& buffers, const Context& context) {
     const tinygltf::Value& attributes = extension.Get("attributes");
     std::vector<std::array<float, 3>> translations, scales;
     std::vector<std::array<float, 4>> rotations;
@@ -134,8 +138,9 @@ std::vector<Instance> flatten_scene(const tinygltf::Model& model, Buffers& buffe
             }
         }
         if (visits + stack.size() + instances.size() > max_visits)
-            fail(context, "nodes", "shared children and instances multiply to more than " +
-                                       std::to_string(max_visits) + " drawings");
+            fail(context, "nodes",
+                 "shared children and instances multiply to more than " + std::to_string(max_visits) +
+                     " drawings");
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
             push(static_cast<std::size_t>(*child), visit.world);
     }

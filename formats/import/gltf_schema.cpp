@@ -77,12 +77,9 @@ constexpr Property buffer[] = {
 constexpr Property buffer_extensions[] = {{"EXT_meshopt_compression", Kind::object, "meshopt buffer"}};
 constexpr Property meshopt_buffer[] = {{"fallback", Kind::boolean}};
 constexpr Property buffer_view[] = {
-    {"buffer", Kind::index, "buffers", required},
-    {"byteOffset", Kind::integer},
-    {"byteLength", Kind::integer, "", required},
-    {"byteStride", Kind::integer},
-    {"target", Kind::integer, "34962 34963"},
-    {"extensions", Kind::object, "bufferView.extensions"},
+    {"buffer", Kind::index, "buffers", required}, {"byteOffset", Kind::integer},
+    {"byteLength", Kind::integer, "", required},  {"byteStride", Kind::integer},
+    {"target", Kind::integer, "34962 34963"},     {"extensions", Kind::object, "bufferView.extensions"},
 };
 constexpr Property buffer_view_extensions[] = {{"EXT_meshopt_compression", Kind::object, "meshopt view"}};
 constexpr Property meshopt_view[] = {
@@ -320,13 +317,13 @@ private:
             return;
         }
         if (found->size() < property.items.fewest || found->size() > property.items.most)
-            fail(context_, place, "has " + std::to_string(found->size()) + " elements instead of " +
-                                      (property.items.most == any_number
-                                           ? "at least " + std::to_string(property.items.fewest)
-                                       : property.items.fewest == property.items.most
-                                           ? std::to_string(property.items.most)
-                                           : std::to_string(property.items.fewest) + " to " +
-                                                 std::to_string(property.items.most)));
+            fail(context_, place,
+                 "has " + std::to_string(found->size()) + " elements instead of " +
+                     (property.items.most == any_number ? "at least " + std::to_string(property.items.fewest)
+                      : property.items.fewest == property.items.most
+                          ? std::to_string(property.items.most)
+                          : std::to_string(property.items.fewest) + " to " +
+                                std::to_string(property.items.most)));
         for (std::size_t i = 0; i < found->size(); ++i) check_value((*found)[i], property, at(place, i));
     }
 
@@ -344,8 +341,8 @@ private:
         case Kind::string:
             if (!value.is_string()) wrong_type(value, property, place);
             if (!property.of.empty() && !is_one_of(property.of, value.get_ref<const std::string&>()))
-                fail(context_, place, "is '" + value.get<std::string>() + "' instead of one of: " +
-                                          std::string(property.of));
+                fail(context_, place,
+                     "is '" + value.get<std::string>() + "' instead of one of: " + std::string(property.of));
             return;
         case Kind::boolean:
             if (!value.is_boolean()) wrong_type(value, property, place);
@@ -359,7 +356,8 @@ private:
             if (!property.of.empty() && !is_one_of(property.of, value.dump()))
                 fail(context_, place,
                      "is " + value.dump() + " instead of one of: " + std::string(property.of));
-            if (value.get<double>() > property.maximum) fail(context_, place, "is " + value.dump() + ", too large");
+            if (value.get<double>() > property.maximum)
+                fail(context_, place, "is " + value.dump() + ", too large");
             return;
         case Kind::index: check_index(value, property.of, place); return;
         }
@@ -387,7 +385,8 @@ private:
         if (!value.is_number_unsigned()) wrong_type(value, property, place);
     }
 
-    [[noreturn]] void wrong_type(const Json& value, const Property& property, const std::string& place) const {
+    [[noreturn]] void wrong_type(const Json& value, const Property& property,
+                                 const std::string& place) const {
         constexpr const char* names[] = {"object", "object of indices", "string", "boolean",
                                          "number", "integer",           "index"};
         const bool whole_array = property.items.most != 0 && !place.ends_with(']');

@@ -12,21 +12,23 @@ std::span<const double> morph_weights(const tinygltf::Mesh& mesh, const tinygltf
 
 void add_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                        std::span<const double> weights, const std::string& attribute, Buffers& buffers,
-                       std::span<const std::uint32_t> subset, std::span<Vec3f> values, const Context& context) {
+                       std::span<const std::uint32_t> subset, std::span<Vec3f> values,
+                       const Context& context) {
     std::vector<Vec3f> delta;
     for (std::size_t i = 0; i < std::min(weights.size(), primitive.targets.size()); ++i) {
         const auto found = primitive.targets[i].find(attribute);
         if (weights[i] == 0.0 || found == primitive.targets[i].end()) continue;
         delta.resize(values.size());
-        read_floats(model.accessors[static_cast<std::size_t>(found->second)], buffers, subset, 3, &delta[0].x, 3,
-                    context);
+        read_floats(model.accessors[static_cast<std::size_t>(found->second)], buffers, subset, 3, &delta[0].x,
+                    3, context);
         const auto weight = static_cast<float>(weights[i]);
         for (std::size_t v = 0; v < values.size(); ++v) values[v] = values[v] + delta[v] * weight;
     }
 }
 
 std::vector<Affine> joint_matrices(const tinygltf::Model& model, const tinygltf::Skin& skin,
-                                   std::span<const Affine> globals, Buffers& buffers, const Context& context) {
+                                   std::span<const Affine> globals, Buffers& buffers,
+                                   const Context& context) {
     std::vector<std::array<float, 16>> inverse_bind(skin.joints.size());
     const bool has_bind = skin.inverseBindMatrices >= 0;
     if (has_bind) {
@@ -64,7 +66,8 @@ Affine VertexWeights::blend(std::size_t vertex, std::span<const Affine> joints_o
         if (weights[first + i] == 0.0F) continue;
         const double weight = double(weights[first + i]) / sum;
         const Affine& joint = joints_of_skin[joints[first + i]];
-        for (std::size_t r = 0; r < 3; ++r) out.linear.row[r] = out.linear.row[r] + joint.linear.row[r] * weight;
+        for (std::size_t r = 0; r < 3; ++r)
+            out.linear.row[r] = out.linear.row[r] + joint.linear.row[r] * weight;
         out.translation = out.translation + joint.translation * weight;
     }
     return out;
@@ -75,8 +78,9 @@ void check_weights(const VertexWeights& weights, std::size_t joints, const std::
     const std::size_t per_vertex = weights.sets * 4;
     for (std::size_t i = 0; i < weights.joints.size(); ++i)
         if (weights.joints[i] >= joints && weights.weights[i] != 0.0F)
-            fail(context, where, "vertex " + std::to_string(i / per_vertex) + " follows joint " +
-                                     std::to_string(weights.joints[i]) + ", the skin has " + std::to_string(joints));
+            fail(context, where,
+                 "vertex " + std::to_string(i / per_vertex) + " follows joint " +
+                     std::to_string(weights.joints[i]) + ", the skin has " + std::to_string(joints));
 }
 
 } // namespace spa::import::gltf

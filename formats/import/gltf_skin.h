@@ -17,7 +17,8 @@ std::span<const double> morph_weights(const tinygltf::Mesh& mesh, const tinygltf
 // values += sum of weight * target attribute. `attribute`: POSITION or NORMAL; `subset`: as in read_floats.
 void add_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                        std::span<const double> weights, const std::string& attribute, Buffers& buffers,
-                       std::span<const std::uint32_t> subset, std::span<Vec3f> values, const Context& context);
+                       std::span<const std::uint32_t> subset, std::span<Vec3f> values,
+                       const Context& context);
 
 // jointGlobal * inverseBind of every joint (glTF 2.0, 3.7.3.3).
 std::vector<Affine> joint_matrices(const tinygltf::Model& model, const tinygltf::Skin& skin,

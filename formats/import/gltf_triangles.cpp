@@ -44,8 +44,9 @@ void append_indexed(const Elements& indices, std::size_t vertices, int mode, con
     if (largest < vertices) return;
     for (std::size_t i = 0; i < indices.count; ++i)
         if (index(i) >= vertices)
-            fail(context, where, "index " + std::to_string(index(i)) + " at position " + std::to_string(i) +
-                                     " is out of range (" + std::to_string(vertices) + " vertices)");
+            fail(context, where,
+                 "index " + std::to_string(index(i)) + " at position " + std::to_string(i) +
+                     " is out of range (" + std::to_string(vertices) + " vertices)");
 }
 
 } // namespace
@@ -75,7 +76,8 @@ std::vector<std::uint32_t> renumber_used(std::vector<Triangle>& triangles, std::
     used.erase(std::unique(used.begin(), used.end()), used.end());
     for (std::size_t i = first; i < triangles.size(); ++i)
         for (std::uint32_t& vertex : triangles[i].vertex)
-            vertex = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), vertex) - used.begin());
+            vertex =
+                static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), vertex) - used.begin());
     return used;
 }
 

@@ -23,7 +23,8 @@ std::vector<std::uint32_t> renumber_used(std::vector<Triangle>& triangles, std::
 // Drops the triangles from `first` on that have equal corners, no area or a corner that is not finite, and
 // counts them; the others get `base` added to their indices. `is_mirrored(triangle)`: swap two corners.
 template <class IsMirrored>
-void finish_triangles(Model& model, std::size_t first, std::size_t base, Report& report, IsMirrored is_mirrored) {
+void finish_triangles(Model& model, std::size_t first, std::size_t base, Report& report,
+                      IsMirrored is_mirrored) {
     std::size_t kept = first;
     for (std::size_t i = first; i < model.triangles.size(); ++i) {
         const Triangle local = model.triangles[i];
@@ -32,7 +33,8 @@ void finish_triangles(Model& model, std::size_t first, std::size_t base, Report&
             ++report.dropped_degenerate;
             continue;
         }
-        const Vec3f pa = model.positions[base + a], pb = model.positions[base + b], pc = model.positions[base + c];
+        const Vec3f pa = model.positions[base + a], pb = model.positions[base + b],
+                    pc = model.positions[base + c];
         if (!is_finite(pa) || !is_finite(pb) || !is_finite(pc)) {
             ++report.dropped_non_finite;
             continue;

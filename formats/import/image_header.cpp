@@ -16,7 +16,8 @@ bool starts_with(std::span<const std::byte> bytes, std::string_view signature, s
 
 std::uint64_t big_endian(std::span<const std::byte> bytes, std::size_t offset, std::size_t count) {
     std::uint64_t value = 0;
-    for (std::size_t i = 0; i < count; ++i) value = value << 8U | std::to_integer<unsigned>(bytes[offset + i]);
+    for (std::size_t i = 0; i < count; ++i)
+        value = value << 8U | std::to_integer<unsigned>(bytes[offset + i]);
     return value;
 }
 
@@ -39,15 +40,16 @@ ImageHeader jpeg_header(std::span<const std::byte> bytes) {
             continue;
         }
         const auto marker = std::to_integer<unsigned>(bytes[at + 1]);
-        const bool stands_alone = marker == 0xFF || marker == 0x00 || marker == 0x01 ||
-                                  (marker >= 0xD0 && marker <= 0xD8);
+        const bool stands_alone =
+            marker == 0xFF || marker == 0x00 || marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
         if (stands_alone) {
             at += marker == 0xFF ? 1 : 2;
             continue;
         }
         if (marker == 0xD9 || marker == 0xDA) return {};
         const std::uint64_t length = big_endian(bytes, at + 2, 2);
-        const bool frame = marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+        const bool frame =
+            marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
         if (frame) {
             if (bytes.size() - at < 9) return {};
             return {big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2), 0};
@@ -82,6 +84,21 @@ ImageKind image_kind(std::span<const std::byte> bytes) {
         if (starts_with(bytes, row.signature)) return row.kind;
     if (starts_with(bytes, "RIFF") && starts_with(bytes, "WEBP", 8)) return ImageKind::webp;
     return ImageKind::unknown;
+}
+
+std::string png_chunk_defect(std::span<const std::byte> bytes) {
+    constexpr std::size_t overhead = 12; // length, type and checksum
+    for (std::size_t at = 8; at < bytes.size();) {
+        if (bytes.size() - at < overhead) return "it ends within a chunk";
+        const std::uint64_t length = big_endian(bytes, at, 4);
+        const std::size_t left = bytes.size() - at - overhead;
+        if (length > left)
+            return "the chunk at byte " + std::to_string(at) + " claims " + std::to_string(length) +
+                   " bytes, but " + std::to_string(left) + " are left";
+        if (starts_with(bytes, "IEND", at + 4)) return {};
+        at += overhead + length;
+    }
+    return {};
 }
 
 ImageHeader read_image_header(std::span<const std::byte> bytes) {

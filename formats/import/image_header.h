@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 
 namespace spa::import {
 
@@ -21,5 +22,9 @@ struct ImageHeader {
 
 // The size that a PNG or JPEG claims; width 0 for other kinds and for what holds no valid header.
 ImageHeader read_image_header(std::span<const std::byte> bytes);
+
+// What is wrong with the chain of chunks of a PNG: one that claims more bytes than are left. Empty if they
+// fit. Decoders allocate a chunk before they read it.
+std::string png_chunk_defect(std::span<const std::byte> bytes);
 
 } // namespace spa::import

@@ -39,7 +39,8 @@ enum class Encoding { uri, file_name };
 // Error(invalid_data) for an empty reference, an absolute path, a path that climbs out of the folder with
 // "..", a drive letter, a URL and a control character. The message starts with `asset`, the path of the
 // file that holds the reference. Does not touch the file system; symbolic links are followed later.
-Reference resolve_reference(const std::filesystem::path& asset, std::string_view reference, Encoding encoding);
+Reference resolve_reference(const std::filesystem::path& asset, std::string_view reference,
+                            Encoding encoding);
 
 // %41 becomes 'A'; a '%' that starts no escape stands for itself.
 std::string percent_decode(std::string_view text);

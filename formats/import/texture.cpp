@@ -63,6 +63,8 @@ void check_claim(const std::string& name, std::span<const std::byte> bytes, cons
     const ImageHeader header = read_image_header(bytes);
     if (header.width == 0 && header.height == 0) fail(name, "it has no image header");
     check_size(name, header.width, header.height, limits);
+    const std::string defect = kind == ImageKind::png ? png_chunk_defect(bytes) : std::string();
+    if (!defect.empty()) fail(name, defect);
     const std::uint64_t most = kind == ImageKind::png ? 1032 * bytes.size() : 1024 * bytes.size();
     const std::uint64_t needed = kind == ImageKind::png
                                      ? header.height * ((header.width * header.pixel_bits + 7) / 8)
@@ -87,7 +89,8 @@ std::vector<Pixel> read_pixels(OIIO::ImageInput& input, const std::string& name)
     const auto width = static_cast<std::size_t>(spec.width), height = static_cast<std::size_t>(spec.height);
     const int channels = std::min(spec.nchannels, 4);
     std::vector<Pixel> pixels(width * height);
-    const bool linear = spec.format.basetype == OIIO::TypeDesc::FLOAT || spec.format.basetype == OIIO::TypeDesc::HALF;
+    const bool linear =
+        spec.format.basetype == OIIO::TypeDesc::FLOAT || spec.format.basetype == OIIO::TypeDesc::HALF;
     if (!linear) {
         if (!input.read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, pixels.data(), sizeof(Pixel)))
             fail(name, input.geterror());
@@ -100,7 +103,8 @@ std::vector<Pixel> read_pixels(OIIO::ImageInput& input, const std::string& name)
             for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c) {
                 const bool alpha = has_alpha && c + 1 == static_cast<std::size_t>(channels);
                 const float value = std::clamp(values[i][c], 0.0F, 1.0F);
-                pixels[i][c] = alpha ? static_cast<std::uint8_t>(value * 255.0F + 0.5F) : linear_to_srgb(value);
+                pixels[i][c] =
+                    alpha ? static_cast<std::uint8_t>(value * 255.0F + 0.5F) : linear_to_srgb(value);
             }
     }
     spread_channels(pixels, channels);
@@ -133,7 +137,8 @@ Texture read_texture(std::span<const std::byte> bytes, const std::string& name, 
         if (!input->open("memory." + format, spec, config)) fail(name, input->geterror());
         if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels < 1)
             fail(name, "it is not a flat picture");
-        check_size(name, static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height), limits);
+        check_size(name, static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height),
+                   limits);
         Image image;
         image.width = static_cast<std::uint32_t>(spec.width);
         image.height = static_cast<std::uint32_t>(spec.height);

@@ -2,9 +2,9 @@
 #include "test_maps.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace spa::test {
 namespace {
@@ -70,10 +70,10 @@ bool same(const Surface& a, const Surface& b) {
 bool same(const Layer& a, const Layer& b) { return same(a.outer, b.outer) && same(a.inner, b.inner); }
 
 bool same(const Part& a, const Part& b) {
-    static_assert(sizeof(ErrorFigures) == 8 * sizeof(float));
+    using Bits = std::array<std::uint32_t, 8>;
     return a.center == b.center && a.radius == b.radius && a.frame == b.frame && a.mapping == b.mapping &&
            a.node == b.node && a.joint == b.joint &&
-           std::memcmp(&a.errors, &b.errors, sizeof a.errors) == 0 &&
+           std::bit_cast<Bits>(a.errors) == std::bit_cast<Bits>(b.errors) &&
            std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
                       [](const Layer& x, const Layer& y) { return same(x, y); });
 }

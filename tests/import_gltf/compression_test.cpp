@@ -29,17 +29,21 @@ void compress(GltfBuilder& builder, int view, const std::vector<unsigned char>& 
     out["buffer"] = 1;
     out["byteOffset"] = 0;
     out["byteLength"] = count * stride;
-    out["extensions"]["EXT_meshopt_compression"] = {
-        {"buffer", 0},        {"byteOffset", range["byteOffset"]}, {"byteLength", range["byteLength"]},
-        {"byteStride", stride}, {"count", count},                    {"mode", mode},
-        {"filter", filter}};
+    out["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
+                                                    {"byteOffset", range["byteOffset"]},
+                                                    {"byteLength", range["byteLength"]},
+                                                    {"byteStride", stride},
+                                                    {"count", count},
+                                                    {"mode", mode},
+                                                    {"filter", filter}};
 }
 
 // Positions 12 bytes a vertex, indices as TRIANGLES or INDICES.
 GltfBuilder meshopt_quad(bool triangles) {
     GltfBuilder builder;
     const int position_accessor = builder.add_accessor(positions, "VEC3");
-    const int index_accessor = builder.add_accessor(std::vector<std::uint32_t>(indices.begin(), indices.end()), "SCALAR");
+    const int index_accessor =
+        builder.add_accessor(std::vector<std::uint32_t>(indices.begin(), indices.end()), "SCALAR");
     std::vector<unsigned char> encoded(meshopt_encodeVertexBufferBound(4, 12));
     encoded.resize(meshopt_encodeVertexBuffer(encoded.data(), encoded.size(), positions.data(), 4, 12));
     compress(builder, 0, encoded, 4, 12, "ATTRIBUTES");
@@ -57,18 +61,18 @@ GltfBuilder meshopt_quad(bool triangles) {
 }
 
 // With the second, empty buffer. The first one's length is not known before everything is added.
-import::Result import_meshopt(GltfBuilder builder) {
-    const Json views = builder.json["bufferViews"];
-    std::size_t size = 0;
-    for (const Json& view : views)
-        if (view["buffer"] == 0)
-            size = std::max(size, view.value("byteOffset", std::size_t{0}) + view["byteLength"].get<std::size_t>());
-    builder.json["buffers"] = {{{"byteLength", size}},
-                               {{"byteLength", 4096},
-                                {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
-    const Scratch scratch;
-    return scratch.read("a.glb", builder.glb());
-}
+import::Result import_meshopt(GltfBuilder builder){const Json views = builder.json["bufferViews"];
+std::size_t size = 0;
+for (const Json& view : views)
+    if (view["buffer"] == 0)
+        size =
+            std::max(size, view.value("byteOffset", std::size_t{0}) + view["byteLength"].get<std::size_t>());
+builder.json["buffers"] = {
+    {{"byteLength", size}},
+    {{"byteLength", 4096}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+const Scratch scratch;
+return scratch.read("a.glb", builder.glb());
+} // namespace
 
 TEST(Compression, MeshoptTrianglesAndIndices) {
     for (const bool triangles : {true, false}) {
@@ -146,22 +150,29 @@ GltfBuilder draco_grid(int n, bool sequential) {
             }
     const std::unique_ptr<draco::Mesh> mesh = soup.Finalize();
     draco::Encoder encoder;
-    encoder.SetEncodingMethod(sequential ? draco::MESH_SEQUENTIAL_ENCODING : draco::MESH_EDGEBREAKER_ENCODING);
+    encoder.SetEncodingMethod(sequential ? draco::MESH_SEQUENTIAL_ENCODING
+                                         : draco::MESH_EDGEBREAKER_ENCODING);
     draco::EncoderBuffer buffer;
     EXPECT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
 
     GltfBuilder builder;
     const int view = builder.add_view({buffer.data(), buffer.size()});
-    const std::size_t vertices = encoder.num_encoded_points() > 0 ? encoder.num_encoded_points() : mesh->num_points();
-    builder.json["accessors"] = {{{"componentType", 5126}, {"count", vertices}, {"type", "VEC3"},
-                                  {"min", {0, 0, 0}}, {"max", {n, n, 2}}},
-                                 {{"componentType", 5126}, {"count", vertices}, {"type", "VEC2"}},
-                                 {{"componentType", 5125}, {"count", mesh->num_faces() * 3}, {"type", "SCALAR"}}};
+    const std::size_t vertices =
+        encoder.num_encoded_points() > 0 ? encoder.num_encoded_points() : mesh->num_points();
+    builder.json["accessors"] = {
+        {{"componentType", 5126},
+         {"count", vertices},
+         {"type", "VEC3"},
+         {"min", {0, 0, 0}},
+         {"max", {n, n, 2}}},
+        {{"componentType", 5126}, {"count", vertices}, {"type", "VEC2"}},
+        {{"componentType", 5125}, {"count", mesh->num_faces() * 3}, {"type", "SCALAR"}}};
     Json& primitive = builder.add_mesh({{"POSITION", 0}, {"TEXCOORD_0", 1}}, 2);
     primitive["extensions"]["KHR_draco_mesh_compression"] = {
         {"bufferView", view},
         {"attributes",
-         {{"POSITION", mesh->attribute(position)->unique_id()}, {"TEXCOORD_0", mesh->attribute(uv)->unique_id()}}}};
+         {{"POSITION", mesh->attribute(position)->unique_id()},
+          {"TEXCOORD_0", mesh->attribute(uv)->unique_id()}}}};
     builder.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
     return builder;
 }
@@ -173,7 +184,8 @@ TEST(Compression, Draco) {
         // Compared as a sum over the corners: the order of triangles is the encoder's.
         double sum = 0, expected = 0;
         for (std::size_t t = 0; t < 50; ++t)
-            for (const Vec3f& p : corners(result.model, t)) sum += double(p.x) + 10 * double(p.y) + 100 * double(p.z);
+            for (const Vec3f& p : corners(result.model, t))
+                sum += double(p.x) + 10 * double(p.y) + 100 * double(p.z);
         for (int y = 0; y < 5; ++y)
             for (int x = 0; x < 5; ++x)
                 for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 0}, {1, 1}, {0, 1}}) {
@@ -196,7 +208,8 @@ TEST(Compression, DracoDamageAndClaims) {
     builder.json["bufferViews"][0]["byteLength"] = 5;
     EXPECT_NE(refusal(builder).find("the data is not a Draco mesh"), std::string::npos);
     builder = draco_grid(3, false);
-    builder.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["attributes"]["POSITION"] = 99;
+    builder.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["attributes"]
+                ["POSITION"] = 99;
     EXPECT_NE(refusal(builder).find("the data has no such attribute"), std::string::npos);
     // A header that claims 2^27 triangles: sequential, version 2.2.
     GltfBuilder claim = draco_grid(1, true);
@@ -206,5 +219,5 @@ TEST(Compression, DracoDamageAndClaims) {
     EXPECT_NE(refusal(claim).find("claims 134217728 triangles in 21 bytes"), std::string::npos);
 }
 
-} // namespace
+} // namespace spa::test
 } // namespace spa::test

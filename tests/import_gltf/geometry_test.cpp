@@ -96,8 +96,8 @@ TEST(Geometry, PointsAndLinesAreCounted) {
 TEST(Geometry, Interleaved) {
     GltfBuilder builder;
     std::string bytes;
-    for (const float value : {0.F, 0.F, 0.F, 0.F, 0.F, 1.F, 9.F, 2.F, 0.F, 0.F, 0.F, 0.F, 1.F, 9.F, 0.F, 3.F, 0.F,
-                              0.F, 0.F, 1.F, 9.F})
+    for (const float value : {0.F, 0.F, 0.F, 0.F, 0.F, 1.F, 9.F, 2.F, 0.F, 0.F, 0.F,
+                              0.F, 1.F, 9.F, 0.F, 3.F, 0.F, 0.F, 0.F, 1.F, 9.F})
         bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
     const int view = builder.add_view(bytes, 28);
     const int positions = builder.add_accessor(view, 0, 5126, 3, "VEC3");
@@ -168,8 +168,9 @@ TEST(Geometry, NodeHierarchy) {
     GltfBuilder builder = triangle();
     const double half = std::numbers::sqrt2 / 2;
     // Parent: turn by 90 degrees about z and move; child: scale, column-major matrix.
-    builder.json["nodes"] = {{{"mesh", 0}, {"matrix", {2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 0, 0, 1, 1}}},
-                             {{"children", {0}}, {"rotation", {0, 0, half, half}}, {"translation", {10, 0, 0}}}};
+    builder.json["nodes"] = {
+        {{"mesh", 0}, {"matrix", {2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 0, 0, 1, 1}}},
+        {{"children", {0}}, {"rotation", {0, 0, half, half}}, {"translation", {10, 0, 0}}}};
     builder.json["scenes"][0]["nodes"] = {1};
     const import::Result result = import_both(builder);
     const auto [a, b, c] = corners(result.model, 0);
@@ -235,7 +236,8 @@ TEST(Geometry, GpuInstancing) {
 
 TEST(Geometry, Scenes) {
     GltfBuilder builder = triangle();
-    builder.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"translation", {0, 0, 1}}, {"children", {2}}},
+    builder.json["nodes"] = {{{"mesh", 0}},
+                             {{"mesh", 0}, {"translation", {0, 0, 1}}, {"children", {2}}},
                              {{"mesh", 0}, {"translation", {0, 0, 1}}}};
     builder.json["scenes"] = {{{"nodes", {0}}}, {{"nodes", {1}}}};
     const auto count = [&] { return import_both(builder).model.triangles.size(); };
@@ -264,8 +266,8 @@ TEST(Geometry, NotFiniteAndDegenerateTrianglesAreCounted) {
     GltfBuilder builder;
     const int positions =
         builder.add_accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, inf, 0, 0, 0, nan, 0, 2, 0, 0}, "VEC3");
-    const int normals = builder.add_accessor<float>(
-        {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    const int normals =
+        builder.add_accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
     const int indices =
         builder.add_accessor<std::uint8_t>({0, 1, 2, 0, 1, 3, 0, 1, 4, 0, 0, 1, 0, 1, 5}, "SCALAR");
     builder.add_mesh({{"POSITION", positions}, {"NORMAL", normals}}, indices);

@@ -27,8 +27,8 @@ int GltfBuilder::add_view(std::string_view bytes, int stride) {
     return static_cast<int>(json["bufferViews"].size()) - 1;
 }
 
-int GltfBuilder::add_accessor(int view, std::size_t offset, int component, std::size_t count, const char* type,
-                              bool normalized) {
+int GltfBuilder::add_accessor(int view, std::size_t offset, int component, std::size_t count,
+                              const char* type, bool normalized) {
     Json accessor{{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}};
     if (offset != 0) accessor["byteOffset"] = offset;
     if (normalized) accessor["normalized"] = true;
@@ -48,7 +48,8 @@ Json& GltfBuilder::add_mesh(const Json& attributes, int indices) {
 
 Json GltfBuilder::finished() const {
     Json out = json;
-    if (!bin_.empty() && !out.contains("buffers")) out["buffers"] = Json::array({{{"byteLength", bin_.size()}}});
+    if (!bin_.empty() && !out.contains("buffers"))
+        out["buffers"] = Json::array({{{"byteLength", bin_.size()}}});
     return out;
 }
 
@@ -91,25 +92,25 @@ std::string base64(std::string_view bytes) {
         for (std::size_t k = 0; k < 3; ++k)
             bits = bits << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
         for (std::size_t k = 0; k < 4; ++k)
-            out += i + k <= bytes.size() && k <= bytes.size() - i ? alphabet[bits >> (18 - 6 * k) & 63U] : '=';
+            out +=
+                i + k <= bytes.size() && k <= bytes.size() - i ? alphabet[bits >> (18 - 6 * k) & 63U] : '=';
     }
     return out;
 }
 
-import::Result import_both(const GltfBuilder& builder) {
-    const Scratch scratch;
-    const import::Result binary = scratch.read("a.glb", builder.glb());
-    const import::Result text = scratch.read("a.gltf", builder.text());
-    expect_valid(binary);
-    EXPECT_EQ(binary.report.format, "GLB");
-    EXPECT_EQ(text.report.format, "glTF");
-    EXPECT_EQ(binary.model.positions, text.model.positions);
-    EXPECT_EQ(binary.model.normals, text.model.normals);
-    EXPECT_EQ(binary.model.uvs, text.model.uvs);
-    EXPECT_EQ(binary.model.colors, text.model.colors);
-    EXPECT_EQ(binary.report.warnings, text.report.warnings);
-    return binary;
-}
+import::Result import_both(const GltfBuilder& builder){const Scratch scratch;
+const import::Result binary = scratch.read("a.glb", builder.glb());
+const import::Result text = scratch.read("a.gltf", builder.text());
+expect_valid(binary);
+EXPECT_EQ(binary.report.format, "GLB");
+EXPECT_EQ(text.report.format, "glTF");
+EXPECT_EQ(binary.model.positions, text.model.positions);
+EXPECT_EQ(binary.model.normals, text.model.normals);
+EXPECT_EQ(binary.model.uvs, text.model.uvs);
+EXPECT_EQ(binary.model.colors, text.model.colors);
+EXPECT_EQ(binary.report.warnings, text.report.warnings);
+return binary;
+} // namespace spa::test
 
 std::string refusal(const GltfBuilder& builder) {
     const Scratch scratch;

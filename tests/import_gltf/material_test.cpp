@@ -14,11 +14,12 @@ namespace {
 // A grey PNG of one pixel, level 0x80: made by hand, stored without compression.
 const std::string& png() {
     static const std::string bytes = [] {
-        const unsigned char raw[] = {0x89, 'P',  'N',  'G',  0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 'I',  'H',
-                                     'D',  'R',  0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00,
-                                     0x00, 0x3A, 0x7E, 0x9B, 0x55, 0x00, 0x00, 0x00, 0x0D, 'I',  'D',  'A',  'T',  0x78,
-                                     0x01, 0x01, 0x02, 0x00, 0xFD, 0xFF, 0x00, 0x80, 0x00, 0x82, 0x00, 0x81, 0xC3, 0x6E,
-                                     0x25, 0xE0, 0x00, 0x00, 0x00, 0x00, 'I',  'E',  'N',  'D',  0xAE, 0x42, 0x60, 0x82};
+        const unsigned char raw[] = {0x89, 'P',  'N',  'G',  0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D,
+                                     'I',  'H',  'D',  'R',  0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01,
+                                     0x08, 0x00, 0x00, 0x00, 0x00, 0x3A, 0x7E, 0x9B, 0x55, 0x00, 0x00, 0x00,
+                                     0x0D, 'I',  'D',  'A',  'T',  0x78, 0x01, 0x01, 0x02, 0x00, 0xFD, 0xFF,
+                                     0x00, 0x80, 0x00, 0x82, 0x00, 0x81, 0xC3, 0x6E, 0x25, 0xE0, 0x00, 0x00,
+                                     0x00, 0x00, 'I',  'E',  'N',  'D',  0xAE, 0x42, 0x60, 0x82};
         return std::string(reinterpret_cast<const char*>(raw), sizeof raw);
     }();
     return bytes;
@@ -29,7 +30,8 @@ GltfBuilder textured() {
     GltfBuilder builder = triangle();
     const int image = builder.add_view(png());
     const int uv0 = builder.add_accessor<float>({0, 0, 1, 0, 0, 1}, "VEC2");
-    const int uv1 = builder.add_accessor<std::uint8_t>({51, 204, 0, 0, 51, 204, 0, 0, 51, 204, 0, 0}, "VEC2", true);
+    const int uv1 =
+        builder.add_accessor<std::uint8_t>({51, 204, 0, 0, 51, 204, 0, 0, 51, 204, 0, 0}, "VEC2", true);
     builder.json["accessors"][uv1]["count"] = 3;
     builder.json["bufferViews"].back()["byteStride"] = 4;
     Json& primitive = builder.json["meshes"][0]["primitives"][0];
@@ -144,7 +146,8 @@ TEST(Material, TextureTransformTestPointsTheArrowsRight) {
         const TexturedTriangle* nearest = nullptr;
         for (const TexturedTriangle& arrow : triangles) {
             if (arrow.texture != "Arrow.png") continue;
-            if (nearest == nullptr || length(arrow.center - marker.center) < length(nearest->center - marker.center))
+            if (nearest == nullptr ||
+                length(arrow.center - marker.center) < length(nearest->center - marker.center))
                 nearest = &arrow;
         }
         ASSERT_NE(nearest, nullptr);
@@ -185,9 +188,11 @@ TEST(Material, VertexColors) {
     Json& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
     attributes["COLOR_0"] = builder.add_accessor<float>({1, 0.5, 0, 0, 1, 0.25, 0, 0, 1}, "VEC3");
     EXPECT_EQ(import_both(builder).model.colors[0], (Vec4f{1, 0.5F, 0, 1}));
-    attributes["COLOR_0"] = builder.add_accessor<std::uint8_t>({255, 0, 51, 102, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC4", true);
+    attributes["COLOR_0"] =
+        builder.add_accessor<std::uint8_t>({255, 0, 51, 102, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC4", true);
     EXPECT_EQ(import_both(builder).model.colors[0], (Vec4f{1, 0, 0.2F, 0.4F}));
-    attributes["COLOR_0"] = builder.add_accessor<std::uint16_t>({65535, 0, 13107, 26214, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC4", true);
+    attributes["COLOR_0"] =
+        builder.add_accessor<std::uint16_t>({65535, 0, 13107, 26214, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC4", true);
     EXPECT_EQ(import_both(builder).model.colors[0], (Vec4f{1, 0, 0.2F, 0.4F}));
     attributes["COLOR_0"] = builder.add_accessor<float>({2, -1, 0.5, 0, 0, 0, 0, 0, 0}, "VEC3");
     const import::Result clamped = import_both(builder);
@@ -233,10 +238,12 @@ TEST(Material, ImageFiles) {
     EXPECT_NE(result.report.files[1].xxh3, 0U);
 
     builder.json["images"] = {{{"uri", "maps/none.png"}}};
-    EXPECT_NE(scratch.refusal("a.glb", builder.glb()).find("images[0].uri: the file 'maps/none.png' does not exist"),
+    EXPECT_NE(scratch.refusal("a.glb", builder.glb())
+                  .find("images[0].uri: the file 'maps/none.png' does not exist"),
               std::string::npos);
     scratch.write("maps/none.png", "this is no picture at all");
-    EXPECT_NE(scratch.refusal("a.glb", builder.glb()).find("maps/none.png: cannot be decoded"), std::string::npos);
+    EXPECT_NE(scratch.refusal("a.glb", builder.glb()).find("maps/none.png: cannot be decoded"),
+              std::string::npos);
 
     // Where no base colour needs the image, it is worth a warning.
     builder.json["images"] = {{{"uri", "maps/other.png"}}};
@@ -266,7 +273,8 @@ ExitCode code_of(const GltfBuilder& builder, std::string& message) {
 TEST(Material, Extensions) {
     GltfBuilder builder = textured();
     std::string message;
-    for (const char* name : {"KHR_materials_unlit", "KHR_materials_sheen", "KHR_lights_punctual", "KHR_xmp_json_ld"}) {
+    for (const char* name :
+         {"KHR_materials_unlit", "KHR_materials_sheen", "KHR_lights_punctual", "KHR_xmp_json_ld"}) {
         builder.json["extensionsRequired"] = {name};
         EXPECT_EQ(code_of(builder, message), ExitCode::ok) << name;
     }

@@ -12,7 +12,8 @@ GltfBuilder morphed() {
     const int up = builder.add_accessor<float>({0, 0, 0, 0, 0, 0, 0, 2, 0}, "VEC3");
     const int side = builder.add_accessor<float>({0, 0, 0, 4, 0, 0, 0, 0, 0}, "VEC3");
     const int tilt = builder.add_accessor<float>({1, 0, 0, 1, 0, 0, 1, 0, 0}, "VEC3");
-    builder.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", up}}, {{"POSITION", side}, {"NORMAL", tilt}}};
+    builder.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", up}},
+                                                             {{"POSITION", side}, {"NORMAL", tilt}}};
     return builder;
 }
 
@@ -42,9 +43,9 @@ GltfBuilder skinned() {
     Json& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
     attributes["JOINTS_0"] = joints;
     attributes["WEIGHTS_0"] = weights;
-    const int bind = builder.add_accessor<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,  0, 0, 1,
-                                                  1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1},
-                                                 "MAT4");
+    const int bind = builder.add_accessor<float>(
+        {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1},
+        "MAT4");
     builder.json["skins"] = {{{"joints", {2, 3}}, {"inverseBindMatrices", bind}}};
     builder.json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {1000, 0, 0}}},
                              {{"children", {2}}, {"translation", {0, 10, 0}}},

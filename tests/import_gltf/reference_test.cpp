@@ -30,11 +30,13 @@ TEST(Reference, Inside) {
 }
 
 TEST(Reference, Outside) {
-    for (const char* text : {"", ".", "/etc/passwd", "\\\\server\\x", "../x.png", "a/../../x.png", "%2e%2e/x.png",
-                             "..%2Fx.png", "..\\x.png", "%2Fetc/passwd", "C:/x.png", "c:\\x.png", "http://h/x.png",
-                             "file:///x.png", "%66ile:///x.png", "ftp:x", "a%00b.png", "a\nb.png", "a/.."}) {
+    for (const char* text :
+         {"", ".", "/etc/passwd", "\\\\server\\x", "../x.png", "a/../../x.png", "%2e%2e/x.png", "..%2Fx.png",
+          "..\\x.png", "%2Fetc/passwd", "C:/x.png", "c:\\x.png", "http://h/x.png", "file:///x.png",
+          "%66ile:///x.png", "ftp:x", "a%00b.png", "a\nb.png", "a/.."}) {
         for (const Encoding encoding : {Encoding::uri, Encoding::file_name}) {
-            if (encoding == Encoding::file_name && std::string_view(text).find('%') != std::string_view::npos) continue;
+            if (encoding == Encoding::file_name && std::string_view(text).find('%') != std::string_view::npos)
+                continue;
             try {
                 const import::Reference reference = resolve_reference("/a/b.gltf", text, encoding);
                 ADD_FAILURE() << text << " led to " << reference.path;
@@ -52,11 +54,13 @@ TEST(Reference, EscapesInAFileAreRefused) {
     for (const char* uri : {"../secret.bin", "sub/../../secret.bin", "%2e%2e/secret.bin", "/etc/passwd",
                             "file:///etc/passwd", "https://example.org/a.bin"}) {
         GltfBuilder builder = triangle();
-        builder.json["buffers"] = {{{"byteLength", 36}, {"uri", uri}}};
-        EXPECT_NE(scratch.refusal("inner/a.gltf", builder.text()).find("stay inside"), std::string::npos) << uri;
+        builder.json["buffers"] = {{{"byteLength", 72}, {"uri", uri}}};
+        EXPECT_NE(scratch.refusal("inner/a.gltf", builder.text()).find("stay inside"), std::string::npos)
+            << uri;
         builder = triangle();
         builder.json["images"] = {{{"uri", uri}}};
-        EXPECT_NE(scratch.refusal("inner/a.gltf", builder.text()).find("stay inside"), std::string::npos) << uri;
+        EXPECT_NE(scratch.refusal("inner/a.gltf", builder.text()).find("stay inside"), std::string::npos)
+            << uri;
     }
 }
 
@@ -77,10 +81,12 @@ TEST(Reference, BufferFiles) {
     EXPECT_EQ(result.report.files[1].bytes, 58U);
 
     scratch.write("my buffer.bin", bytes.substr(1));
-    EXPECT_NE(scratch.refusal("a.gltf", json.dump()).find("buffers[0].byteLength: is 36, but there are only 35"),
-              std::string::npos);
+    EXPECT_NE(
+        scratch.refusal("a.gltf", json.dump()).find("buffers[0].byteLength: is 36, but there are only 35"),
+        std::string::npos);
     json["buffers"][0]["uri"] = "none.bin";
-    EXPECT_NE(scratch.refusal("a.gltf", json.dump()).find("the file 'none.bin' does not exist"), std::string::npos);
+    EXPECT_NE(scratch.refusal("a.gltf", json.dump()).find("the file 'none.bin' does not exist"),
+              std::string::npos);
 }
 
 TEST(Reference, Base64) {
@@ -95,7 +101,8 @@ TEST(Reference, Base64) {
     EXPECT_EQ(text("Zm9v"), "foo");
     EXPECT_EQ(text("Zm9vYg"), "foob");
     EXPECT_EQ(text("Zm9vYmFy"), "foobar");
-    for (const char* wrong : {"Z", "Zm9vY", "Zm 9v", "Zm9v=Yg=", "Zm9\xFF", "===="}) EXPECT_EQ(text(wrong), "refused") << wrong;
+    for (const char* wrong : {"Z", "Zm9vY", "Zm 9v", "Zm9v=Yg=", "Zm9\xFF", "===="})
+        EXPECT_EQ(text(wrong), "refused") << wrong;
     EXPECT_FALSE(import::decode_data_uri("data:"));
     EXPECT_FALSE(import::decode_data_uri("data:image/png;base64"));
     EXPECT_EQ(import::decode_data_uri("data:text/plain,a%20b")->size(), 3U);

@@ -10,7 +10,7 @@
 namespace spa::test {
 
 std::filesystem::path Scratch::write(const std::string& name, std::string_view content) const {
-    const std::filesystem::path path = folder_.file(name);
+    std::filesystem::path path = folder_.file(name);
     std::filesystem::create_directories(path.parent_path());
     // Truncating a file makes ext4 flush it when it is closed; a new one is written thousands of times
     // faster.
@@ -48,7 +48,7 @@ std::string refusal_of(const std::filesystem::path& path) {
         expect_valid(import::read_model(path));
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::invalid_data) << error.what();
-        const std::string message = error.what();
+        std::string message = error.what();
         EXPECT_EQ(message.rfind(path.string(), 0), 0U) << "a message starts with the path: " << message;
         return message;
     }

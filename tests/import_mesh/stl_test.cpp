@@ -30,7 +30,7 @@ std::string binary(const std::string& title, const std::vector<Facet>& facets) {
         const Vec3f wrong_normal{0, 0, -7};
         put(&wrong_normal, 12);
         put(facet.data(), 36);
-        put("\0\0", 2);
+        bytes.append(2, '\0');
     }
     return bytes;
 }
