@@ -40,7 +40,7 @@ private:
 // A temporary folder beside `path`, or inside it if it exists; removed with all it holds unless committed.
 class StagedFolder {
 public:
-    explicit StagedFolder(std::filesystem::path path); // throws Error{input_output}
+    explicit StagedFolder(const std::filesystem::path& path); // throws Error{input_output}
     ~StagedFolder();
     StagedFolder(const StagedFolder&) = delete;
     StagedFolder& operator=(const StagedFolder&) = delete;

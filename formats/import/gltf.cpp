@@ -69,15 +69,26 @@ tinygltf::Model build_model(Json& document, const Context& context) {
     return model;
 }
 
+// How much a few bytes of JSON may make us read again and again, beyond what ends up in the model.
+constexpr std::uint64_t max_primitives = std::uint64_t{1} << 22U;
+constexpr std::uint64_t max_reads_per_vertex = 16; // of the limit of vertices
+
 // Holds the flattened scene against the limits before anything is allocated for it.
 Size total_size(const tinygltf::Model& model, const std::vector<Instance>& instances,
                 const Context& context) {
     Size total;
+    std::uint64_t primitives = 0;
     for (const Instance& instance : instances)
         for (const tinygltf::Primitive& primitive :
              model.meshes[static_cast<std::size_t>(model.nodes[instance.node].mesh)].primitives) {
+            if (++primitives > max_primitives)
+                fail(context, "",
+                     "the scene draws more than " + std::to_string(max_primitives) + " primitives");
             if (!is_drawn(primitive)) continue;
             const Size size = size_of(model, primitive);
+            total.reads += size.reads;
+            if (total.reads / max_reads_per_vertex > context.limits.vertices)
+                fail(context, "", "the scene reads morph targets or sparse accessors too often");
             total.vertices += size.vertices;
             total.triangles += size.triangles;
             if (total.vertices > context.limits.vertices)

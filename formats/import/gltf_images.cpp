@@ -54,7 +54,8 @@ std::uint32_t Images::texture(std::size_t image, Model& model) {
     if (external) reference = resolve_reference(context_.path, entry.uri, Encoding::uri);
     const std::string name =
         external ? reference.name : where + (entry.name.empty() ? "" : " '" + entry.name + "'");
-    const auto found = textures_.find(name);
+    const std::string key = entry.uri.empty() ? at("bufferViews", entry.view) : name;
+    const auto found = textures_.find(key);
     if (found != textures_.end()) return found->second;
 
     std::vector<std::byte> storage;
@@ -73,6 +74,7 @@ std::uint32_t Images::texture(std::size_t image, Model& model) {
         bytes = storage;
     } else {
         bytes = buffers_.view(entry.view);
+        buffers_.claim_compressed(bytes.size(), where);
     }
     try {
         model.textures.push_back(read_texture(bytes, name, context_.limits));
@@ -81,7 +83,7 @@ std::uint32_t Images::texture(std::size_t image, Model& model) {
                     context_.path.string() + ": " + (external ? where + ": " : "") + error.what());
     }
     const auto index = static_cast<std::uint32_t>(model.textures.size() - 1);
-    textures_.emplace(name, index);
+    textures_.emplace(key, index);
     return index;
 }
 

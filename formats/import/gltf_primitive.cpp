@@ -266,6 +266,9 @@ Size size_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive)
     Size size;
     size.triangles = primitive.mode == TINYGLTF_MODE_TRIANGLES || corners < 2 ? corners / 3 : corners - 2;
     const bool flat = primitive.attributes.count("NORMAL") == 0;
+    size.reads = vertices * primitive.targets.size();
+    for (const auto& [name, index] : primitive.attributes)
+        if (model.accessors[static_cast<std::size_t>(index)].sparse.isSparse) size.reads += vertices;
     size.vertices = flat ? 3 * size.triangles : std::min(vertices, 3 * size.triangles);
     return size;
 }

@@ -27,9 +27,10 @@ struct Assembly {
 // Points and lines: not drawn.
 bool is_drawn(const tinygltf::Primitive& primitive);
 
-// The vertices and triangles that a drawing adds at most; what the limits are held against.
+// What a drawing adds at most, and how many vertices must be read for it: morph targets and sparse accessors
+// are read in full. The limits are held against it.
 struct Size {
-    std::uint64_t vertices = 0, triangles = 0;
+    std::uint64_t vertices = 0, triangles = 0, reads = 0;
 };
 Size size_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive);
 

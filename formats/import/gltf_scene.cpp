@@ -8,7 +8,7 @@ namespace spa::import::gltf {
 namespace {
 
 // What shared children and instancing may multiply a hierarchy to.
-constexpr std::size_t max_visits = std::size_t{1} << 22U;
+constexpr std::size_t max_visits = std::size_t{1} << 20U;
 
 struct Quaternion {
     double x = 0, y = 0, z = 0, w = 1;
@@ -102,8 +102,11 @@ std::vector<std::size_t> roots_of(const tinygltf::Model& model) {
         }
     }
     std::vector<std::size_t> roots;
-    for (const std::size_t node : listed)
-        if (!below[node] && std::find(roots.begin(), roots.end(), node) == roots.end()) roots.push_back(node);
+    for (const std::size_t node : listed) {
+        if (below[node]) continue;
+        roots.push_back(node);
+        below[node] = true; // listed twice, drawn once
+    }
     return roots;
 }
 

@@ -84,8 +84,10 @@ void add_source(Report& report, std::string name, std::span<const std::byte> byt
 }
 
 void add_warning(Report& report, std::string warning) {
-    if (std::find(report.warnings.begin(), report.warnings.end(), warning) == report.warnings.end())
-        report.warnings.push_back(std::move(warning));
+    if (report.warnings.size() > max_warnings) return;
+    if (std::find(report.warnings.begin(), report.warnings.end(), warning) != report.warnings.end()) return;
+    if (report.warnings.size() == max_warnings) warning = "there are more warnings, which are left out";
+    report.warnings.push_back(std::move(warning));
 }
 
 std::string percent_decode(std::string_view text) {

@@ -23,7 +23,9 @@ SourceFile describe_source(std::string name, std::span<const std::byte> bytes);
 // Appends the record unless one of the same name is already there.
 void add_source(Report& report, std::string name, std::span<const std::byte> bytes);
 
-// Appends the warning unless the same text is already there.
+// Appends the warning unless the same text is already there. A report holds so many and then a line that says
+// that there are more: a damaged file can give one for each of its bytes.
+inline constexpr std::size_t max_warnings = 100;
 void add_warning(Report& report, std::string warning);
 
 // Where a reference inside an asset leads.

@@ -29,6 +29,18 @@ TEST(Obj, PositionsUvsNormalsAndTheirOrientation) {
     EXPECT_EQ(model.normals[v[0]], (Vec3f{0, 0, 1}));
 }
 
+TEST(Obj, CornersThatDifferInOneIndexAreVerticesOfTheirOwn) {
+    const auto result = Scratch().read("t.obj", std::string(triangle) +
+                                                    "v 1 1 0\nvt 0 0\nvt 0.5 0\nvn 0 0 1\nvn 0 1 0\n"
+                                                    "f 1/1/1 2/1/1 3/1/1\nf 2/2/1 4/1/1 3/1/2\n");
+    const Model& model = result.model;
+    EXPECT_EQ(model.positions.size(), 6U);
+    EXPECT_EQ(model.uvs[model.triangles[0].vertex[1]], (Vec2f{0, 1}));
+    EXPECT_EQ(model.uvs[model.triangles[1].vertex[0]], (Vec2f{0.5F, 1}));
+    EXPECT_EQ(model.normals[model.triangles[0].vertex[2]], (Vec3f{0, 0, 1}));
+    EXPECT_EQ(model.normals[model.triangles[1].vertex[2]], (Vec3f{0, 1, 0}));
+}
+
 TEST(Obj, RelativeIndicesCountBackFromTheirLine) {
     const auto result =
         Scratch().read("t.obj", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nf -4 -3 -2\n");
