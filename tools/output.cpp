@@ -130,7 +130,8 @@ void StagedFile::commit() {
     temporary_.clear();
 }
 
-StagedFolder::StagedFolder(const fs::path& path) : path_(without_trailing_slash(path)), exists_(fs::exists(path_)) {
+StagedFolder::StagedFolder(const fs::path& path)
+    : path_(without_trailing_slash(path)), exists_(fs::exists(path_)) {
     std::string name = temporary_template(exists_ ? path_ : folder_of(path_), path_.filename());
     if (mkdtemp(name.data()) == nullptr) fail(path_, "cannot be written", errno);
     temporary_ = name;

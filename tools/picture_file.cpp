@@ -31,7 +31,8 @@ std::vector<std::byte> encode(const char* format, const OIIO::ImageSpec& spec, c
     return {data, data + bytes.size()};
 }
 
-OIIO::ImageSpec make_spec(std::uint32_t width, std::uint32_t height, int channels, const OIIO::TypeDesc& type) {
+OIIO::ImageSpec make_spec(std::uint32_t width, std::uint32_t height, int channels,
+                          const OIIO::TypeDesc& type) {
     return {int(width), int(height), channels, type};
 }
 

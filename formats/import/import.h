@@ -31,7 +31,7 @@ struct SourceFile {
 struct Report {
     std::string format; // "glTF", "GLB", "OBJ", "PLY", "STL" or "OFF"
     std::vector<SourceFile> files;
-    std::vector<std::string> warnings; // full sentences; each distinct one once, in order
+    std::vector<std::string> warnings;    // full sentences; each distinct one once, in order
     std::uint64_t dropped_degenerate = 0; // triangles with two equal corners in the index buffer or no area
     std::uint64_t dropped_non_finite = 0; // triangles with a NaN or infinite corner
     std::uint64_t ignored_primitives = 0; // points and lines

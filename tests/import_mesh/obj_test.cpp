@@ -30,9 +30,9 @@ TEST(Obj, PositionsUvsNormalsAndTheirOrientation) {
 }
 
 TEST(Obj, CornersThatDifferInOneIndexAreVerticesOfTheirOwn) {
-    const auto result = Scratch().read("t.obj", std::string(triangle) +
-                                                    "v 1 1 0\nvt 0 0\nvt 0.5 0\nvn 0 0 1\nvn 0 1 0\n"
-                                                    "f 1/1/1 2/1/1 3/1/1\nf 2/2/1 4/1/1 3/1/2\n");
+    const auto result =
+        Scratch().read("t.obj", std::string(triangle) + "v 1 1 0\nvt 0 0\nvt 0.5 0\nvn 0 0 1\nvn 0 1 0\n"
+                                                        "f 1/1/1 2/1/1 3/1/1\nf 2/2/1 4/1/1 3/1/2\n");
     const Model& model = result.model;
     EXPECT_EQ(model.positions.size(), 6U);
     EXPECT_EQ(model.uvs[model.triangles[0].vertex[1]], (Vec2f{0, 1}));
