@@ -3,8 +3,8 @@
 
 #include "orbit_batches.h"
 #include "orbit_naive.h"
-#include "orbit_shaders.h"
 #include "orbit_tiles.h"
+#include <orbit_shaders.h>
 
 #include <algorithm>
 #include <cmath>

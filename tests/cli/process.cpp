@@ -90,6 +90,7 @@ Outcome run(const std::vector<std::string>& arguments, const fs::path& folder, s
     std::vector<std::string> texts{"spa"};
     texts.insert(texts.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
+    pointers.reserve(texts.size() + 1);
     for (std::string& text : texts) pointers.push_back(text.data());
     pointers.push_back(nullptr);
 

@@ -38,7 +38,7 @@ std::string check_properties(const json& schema, const json& value, const std::s
             if (schema.value("additionalProperties", true)) continue;
             return where + ": '" + key + "' is not in the schema";
         }
-        const std::string error = schema_error(properties[key], member, where + "." + key);
+        std::string error = schema_error(properties[key], member, where + "." + key);
         if (!error.empty()) return error;
     }
     return "";
@@ -53,7 +53,7 @@ std::string check_required(const json& names, const json& value, const std::stri
 
 std::string check_items(const json& items, const json& value, const std::string& where) {
     for (std::size_t i = 0; value.is_array() && i < value.size(); ++i) {
-        const std::string error = schema_error(items, value[i], where + "[" + std::to_string(i) + "]");
+        std::string error = schema_error(items, value[i], where + "[" + std::to_string(i) + "]");
         if (!error.empty()) return error;
     }
     return "";
@@ -114,7 +114,7 @@ std::string check_keyword(const std::string& keyword, const json& schema, const 
 
 std::string schema_error(const json& schema, const json& value, const std::string& where) {
     for (const auto& [keyword, rule] : schema.items()) {
-        const std::string error = check_keyword(keyword, schema, value, where);
+        std::string error = check_keyword(keyword, schema, value, where);
         if (!error.empty()) return error;
     }
     return "";

@@ -41,7 +41,6 @@ void expect_round_trip(const TestMap& map) {
         // Views survive moves of their owner.
         File moved = std::move(streamed);
         EXPECT_TRUE(same(moved.map(), map.map));
-        EXPECT_TRUE(streamed.map().parts.empty()); // NOLINT(bugprone-use-after-move)
 
         File unchecked;
         ASSERT_TRUE(open(std::span<const std::byte>(file), unchecked, {.depth = CheckDepth::structure}).ok());
