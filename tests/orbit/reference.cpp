@@ -258,11 +258,13 @@ std::optional<std::vector<bake::Crossing>> cast_reference(const bake::CenteredMo
 }
 
 Comparison compare_with_reference(const bake::CrossingGrid& crossings, const bake::CenteredModel& model,
-                                  bool layers) {
+                                  bool layers, std::size_t step) {
     Comparison result;
     const Grid& grid = crossings.grid;
     for (std::uint32_t y = 0; y < grid.height; ++y) {
         for (std::uint32_t x = 0; x < grid.width; ++x) {
+            const std::size_t sample = std::size_t(y) * grid.width + x;
+            if (sample % step != 0) continue;
             auto expected = cast_reference(model, grid, {x, y});
             if (!expected) {
                 ++result.undecided;
@@ -270,7 +272,6 @@ Comparison compare_with_reference(const bake::CrossingGrid& crossings, const bak
             }
             ++result.compared;
             if (!layers && expected->size() > 1) expected->resize(1);
-            const std::size_t sample = std::size_t(y) * grid.width + x;
             const std::size_t first = crossings.first[sample];
             bool same = crossings.first[sample + 1] - first == expected->size();
             for (std::size_t i = 0; same && i < expected->size(); ++i) {

@@ -32,8 +32,8 @@ struct Comparison {
     int color = 0;
 };
 
-// layers: all crossings; otherwise the outermost.
+// layers: all crossings; otherwise the outermost. step: every how manyth sample is compared.
 Comparison compare_with_reference(const bake::CrossingGrid& crossings, const bake::CenteredModel& model,
-                                  bool layers);
+                                  bool layers, std::size_t step = 1);
 
 } // namespace spa::test
