@@ -13,7 +13,7 @@ compare() {
     name=$1
     shift
     for threads in 1 2; do
-        "$spa" bake "$folder/$name.glb" -o "$folder/$threads.spa" --threads $threads "$@" 2>"$folder/said" || {
+        "$spa" bake "$folder/$name.glb" -o "$folder/$threads.spa" --threads $threads "$@" >"$folder/said" 2>&1 || {
             cat "$folder/said" >&2
             echo "check_threads.sh: spa bake of $name $* --threads $threads failed" >&2
             exit 1
@@ -29,8 +29,8 @@ compare() {
 
 for name in boot sphere torus cube spiky cliff concave; do
     case $name in
-    boot) "$spa" sample boot --level 2 -o "$folder/boot.glb" ;;
-    *) "$spa" sample "$name" -o "$folder/$name.glb" ;;
+    boot) "$spa" sample boot --level 2 -o "$folder/boot.glb" >/dev/null ;;
+    *) "$spa" sample "$name" -o "$folder/$name.glb" >/dev/null ;;
     esac
     for layers in 1 2; do
         compare "$name" --layers $layers --mapping octahedral --size 96

@@ -32,7 +32,7 @@ GltfBuilder textured() {
     const int uv0 = builder.add_accessor<float>({0, 0, 1, 0, 0, 1}, "VEC2");
     const int uv1 =
         builder.add_accessor<std::uint8_t>({51, 204, 0, 0, 51, 204, 0, 0, 51, 204, 0, 0}, "VEC2", true);
-    builder.json["accessors"][uv1]["count"] = 3;
+    builder.json["accessors"][std::size_t(uv1)]["count"] = 3;
     builder.json["bufferViews"].back()["byteStride"] = 4;
     Json& primitive = builder.json["meshes"][0]["primitives"][0];
     primitive["attributes"]["TEXCOORD_0"] = uv0;
