@@ -131,7 +131,7 @@ TEST(Container, EveryDefectIsNamedWithItsPlace) {
         {"/materials",
          {{{"normalTexture", {{"index", 0}}}}},
          "materials[0].normalTexture.index: 0 is out of range"},
-        {"/images", {Json::object()}, "images[0]: has no uri and no bufferView"},
+        {"/images", Json::array({Json::object()}), "images[0]: has no uri and no bufferView"},
         {"/samplers", {{{"wrapS", 1}}}, "samplers[0].wrapS: is 1"},
         {"/skins", {{{"joints", Json::array()}}}, "skins[0].joints: has 0 elements"},
         {"/meshes/0/primitives/0/indices", 0, "is not a SCALAR of unsigned integers"},
