@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -104,7 +105,7 @@ std::vector<Pixel> read_pixels(OIIO::ImageInput& input, const std::string& name)
                 const bool alpha = has_alpha && c + 1 == static_cast<std::size_t>(channels);
                 const float value = std::clamp(values[i][c], 0.0F, 1.0F);
                 pixels[i][c] =
-                    alpha ? static_cast<std::uint8_t>(value * 255.0F + 0.5F) : linear_to_srgb(value);
+                    alpha ? static_cast<std::uint8_t>(std::lround(value * 255.0F)) : linear_to_srgb(value);
             }
     }
     spread_channels(pixels, channels);
