@@ -18,7 +18,8 @@ Image checker() {
     for (std::uint32_t y = 0; y < image.height; ++y) {
         for (std::uint32_t x = 0; x < image.width; ++x) {
             const double value = (x / tile + y / tile) % 2 == 0 ? 230 : 90;
-            const double hue = 2 * std::numbers::pi * (x / tile) / tiles_around;
+            const std::uint32_t sector = x / tile;
+            const double hue = 2 * std::numbers::pi * sector / tiles_around;
             const auto channel = [&](double phase) {
                 return static_cast<std::uint8_t>(
                     std::lround(value * (0.55 + 0.45 * std::cos(hue - phase * 2 * std::numbers::pi / 3))));
