@@ -19,6 +19,7 @@ pkg-config
 libcli11-dev
 libdraco-dev
 libegl-dev
+libembree-dev
 libgl-dev
 libmeshoptimizer-dev
 libopenimageio-dev

@@ -10,6 +10,7 @@
 #include "radial.h"
 
 #include "../core/error.h"
+#include "../mesh/closest_point.h"
 #include "../mesh/components.h"
 
 #include <tbb/task_arena.h>
@@ -23,36 +24,6 @@ namespace {
 
 constexpr double on_surface_distance = 1e-4;
 
-// Square of the distance from the origin to a triangle (Ericson, Real-Time Collision Detection, 5.1.5).
-double distance_squared(Vec3d a, Vec3d b, Vec3d c) {
-    const Vec3d ab = b - a;
-    const Vec3d ac = c - a;
-    const auto at = [&](double v, double w) {
-        const Vec3d p = a + ab * v + ac * w;
-        return dot(p, p);
-    };
-    const double d1 = -dot(ab, a);
-    const double d2 = -dot(ac, a);
-    if (d1 <= 0 && d2 <= 0) return dot(a, a);
-    const double d3 = -dot(ab, b);
-    const double d4 = -dot(ac, b);
-    if (d3 >= 0 && d4 <= d3) return dot(b, b);
-    const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) return at(d1 / (d1 - d3), 0);
-    const double d5 = -dot(ab, c);
-    const double d6 = -dot(ac, c);
-    if (d6 >= 0 && d5 <= d6) return dot(c, c);
-    const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) return at(0, d2 / (d2 - d6));
-    const double va = d3 * d6 - d5 * d4;
-    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-        const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-        return at(1 - w, w);
-    }
-    const double sum = va + vb + vc;
-    return at(vb / sum, vc / sum);
-}
-
 // What can be said of the triangles as the centre sees them.
 void inspect_triangles(const CenteredModel& centered, Report& report) {
     for (const Triangle& triangle : centered.model->triangles) {
@@ -60,9 +31,8 @@ void inspect_triangles(const CenteredModel& centered, Report& report) {
         const Vec3d b = to_double(centered.positions[triangle.vertex[1]]);
         const Vec3d c = to_double(centered.positions[triangle.vertex[2]]);
         if (dot(a, cross(b, c)) == 0) ++report.edge_on_triangles;
-        if (!report.center_on_surface &&
-            distance_squared(a, b, c) < on_surface_distance * on_surface_distance) {
-            report.center_on_surface = true;
+        if (!report.center_on_surface) {
+            report.center_on_surface = length(closest_point_on_triangle({}, a, b, c)) < on_surface_distance;
         }
     }
 }
