@@ -2,6 +2,7 @@
 #include "arguments.h"
 
 #include <charconv>
+#include <cmath>
 
 namespace spa::tools {
 
@@ -23,6 +24,15 @@ std::uint32_t parse_number(const std::string& option, const std::string& text, s
     if (error != std::errc{} || stopped != end || value < lowest || value > highest)
         throw Error(ExitCode::usage, option + ": '" + text + "' is not a whole number from " +
                                          std::to_string(lowest) + " to " + std::to_string(highest));
+    return value;
+}
+
+double parse_measure(const std::string& option, const std::string& text) {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || stopped != end || !(value >= 0) || !std::isfinite(value))
+        throw Error(ExitCode::usage, option + ": '" + text + "' is not a number of 0 or more");
     return value;
 }
 

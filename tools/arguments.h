@@ -45,6 +45,10 @@ CLI::Option* add_choice(CLI::App& app, const std::string& option, std::initializ
 std::uint32_t parse_number(const std::string& option, const std::string& text, std::uint32_t lowest,
                            std::uint32_t highest);
 
+// A number >= 0 with '.' whatever the locale, such as "0.001" or "2e-3". Throws Error{usage} whose message
+// starts with `option`.
+double parse_measure(const std::string& option, const std::string& text);
+
 // How a verb that reports does it.
 enum class ReportFormat : std::uint8_t { text, json };
 const char* name(ReportFormat format);

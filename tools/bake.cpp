@@ -24,10 +24,10 @@ void check_inputs(const BakeArguments& arguments, const import::Report& source) 
     check_output_file(arguments.output, inputs);
 }
 
-import::Result read_asset(const BakeArguments& arguments){
+spa::import::Result read_asset(const BakeArguments& arguments) {
     const SlowStep step("reading " + arguments.input.filename().string(), arguments.quiet);
-return import::read_model(arguments.input);
-} // namespace
+    return import::read_model(arguments.input);
+}
 
 bake::Result bake_with_progress(const BakeArguments& arguments, const Model& model) {
     ProgressReport progress("baking " + arguments.input.filename().string(), arguments.quiet);
@@ -83,7 +83,7 @@ void bake_asset(const BakeArguments& arguments) {
               : report_text(facts, bytes.size(), seconds));
 }
 
-} // namespace spa::tools
+} // namespace
 
 Verb bake_verb() {
     return {

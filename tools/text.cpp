@@ -14,6 +14,13 @@ std::string fixed(double value, int decimals) {
     return out.str();
 }
 
+std::string significant(double value, int digits) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << std::setprecision(digits) << value;
+    return out.str();
+}
+
 std::string percent(double share, int decimals) { return fixed(share * 100, decimals) + " %"; }
 
 std::string byte_count(std::uint64_t bytes) {

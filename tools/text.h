@@ -12,6 +12,8 @@ namespace spa::tools {
 
 // Fixed-point, '.' whatever the locale; "nan" and "inf" as such.
 std::string fixed(double value, int decimals);
+// `digits` significant digits, as short as that allows: "0.0001234", "1.2e-07", "90".
+std::string significant(double value, int digits);
 // 0.1234 -> "12.3 %".
 std::string percent(double share, int decimals = 1);
 // "512 bytes", "41.2 KiB", "1.3 MiB", "2.0 GiB".

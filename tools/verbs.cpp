@@ -9,11 +9,14 @@ namespace spa::tools {
 Verb bake_verb();
 Verb inspect_verb();
 Verb extract_verb();
+Verb validate_verb();
+Verb compare_verb();
 Verb sample_verb();
+Verb bench_verb();
 Verb help_verb();
 
 std::span<const Verb> verbs() {
-    static const std::array table{bake_verb(), inspect_verb(), extract_verb(), sample_verb(), help_verb()};
+    static const std::array table{bake_verb(), inspect_verb(), extract_verb(), validate_verb(), compare_verb(), sample_verb(), bench_verb(), help_verb()};
     return table;
 }
 

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare.h"
 
+#include "angle.h"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace spa::measure {
 namespace {
 
 bool same_size(const ImageView& a, const ImageView& b) {
     return a.empty() || b.empty() || (a.width == b.width && a.height == b.height);
-}
-
-double angle_degrees(Vec3d a, Vec3d b) {
-    return std::atan2(length(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi;
 }
 
 void compare_shape(const Surface& a, const Surface& b, double tolerance, SurfaceDifference& out) {
@@ -76,12 +73,26 @@ void compare_color(const Surface& a, const Surface& b, SurfaceDifference& out) {
     if (texels > 0) out.alpha_mean /= texels;
 }
 
+PartDifference compare_placement(std::uint32_t index, const Part& a, const Part& b) {
+    PartDifference difference;
+    difference.part = index;
+    difference.center = length(b.center - a.center) / a.radius;
+    difference.radius = std::abs(b.radius - a.radius) / a.radius;
+    for (unsigned k = 0; k < 3; ++k) {
+        const Vec3d row = b.frame.row[k] - a.frame.row[k];
+        difference.frame = std::max({difference.frame, std::abs(row.x), std::abs(row.y), std::abs(row.z)});
+    }
+    return difference;
+}
+
+} // namespace
+
+const char* name(Side side) { return side == Side::outer ? "outer" : "inner"; }
+
 Surface surface_of(const Part& part, std::size_t layer, Side side) {
     if (layer >= part.layers.size()) return {};
     return side == Side::outer ? part.layers[layer].outer : part.layers[layer].inner;
 }
-
-} // namespace
 
 MapDifference compare(const SphericalMap& a, const SphericalMap& b, const CompareOptions& options) {
     MapDifference result;
@@ -94,21 +105,22 @@ MapDifference compare(const SphericalMap& a, const SphericalMap& b, const Compar
         const Part& pa = a.parts[p];
         const Part& pb = b.parts[p];
         if (pa.mapping != pb.mapping) {
-            result = {"part " + std::to_string(p) + " has mapping " + name(pa.mapping) + " in one map and " +
-                          name(pb.mapping) + " in the other",
-                      {}};
-            return result;
+            return {"part " + std::to_string(p) + " has mapping " + name(pa.mapping) + " in one map and " +
+                        name(pb.mapping) + " in the other",
+                    {},
+                    {}};
         }
+        result.parts.push_back(compare_placement(p, pa, pb));
         for (std::uint32_t l = 0; l < std::max(pa.layers.size(), pb.layers.size()); ++l) {
             for (const Side side : {Side::outer, Side::inner}) {
                 const Surface sa = surface_of(pa, l, side);
                 const Surface sb = surface_of(pb, l, side);
                 if (sa.empty() && sb.empty()) continue;
                 if (!same_size(sa.depth, sb.depth) || !same_size(sa.color, sb.color)) {
-                    result = {"the images of part " + std::to_string(p) + ", layer " + std::to_string(l) +
-                                  " differ in size",
-                              {}};
-                    return result;
+                    return {"the images of part " + std::to_string(p) + ", layer " + std::to_string(l) +
+                                " differ in size",
+                            {},
+                            {}};
                 }
                 SurfaceDifference difference;
                 difference.part = p;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far two spherical maps differ, sample by sample.
+// How far two spherical maps differ, sample by sample. Metadata and error figures are not compared.
 #pragma once
 
 #include "../core/spherical_map.h"
@@ -12,6 +12,10 @@
 namespace spa::measure {
 
 enum class Side : std::uint8_t { outer, inner };
+const char* name(Side side);
+
+// Of a layer that the part does not have: an empty one.
+Surface surface_of(const Part& part, std::size_t layer, Side side);
 
 // The difference of one surface. Depth and normals are compared where both maps have a surface, colours where
 // both have coverage. Mean over nothing is 0.
@@ -29,14 +33,23 @@ struct SurfaceDifference {
     double alpha_mean = 0; // |difference| over all texels, in codes of 255
 };
 
+// How far two parts lie apart in space: what a sample means, before its value.
+struct PartDifference {
+    std::uint32_t part = 0;
+    double center = 0; // distance, in units of the first one's R
+    double radius = 0; // relative to the first one's
+    double frame = 0;  // the largest |difference| of two elements
+};
+
 struct CompareOptions {
     double depth_tolerance = 2.0 / 65535; // two codes of u16, in units of R
 };
 
 struct MapDifference {
-    // Why the maps cannot be compared sample by sample (part count, mapping, sizes); then `surfaces` is
-    // empty.
+    // Why the maps cannot be compared sample by sample (part count, mapping, sizes); then `parts` and
+    // `surfaces` are empty.
     std::optional<std::string> structure;
+    std::vector<PartDifference> parts;
     // Every surface that either map has, by part, layer, side. One that a map lacks counts as without
     // samples.
     std::vector<SurfaceDifference> surfaces;

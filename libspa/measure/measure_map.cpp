@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure_map.h"
+
+#include "map_surface.h"
+#include "surface_samples.h"
+
+#include "../bake/arena.h"
+#include "../bake/progress_meter.h"
+#include "../bake/shading.h"
+#include "../core/error.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spa::measure {
+namespace {
+
+// A point of the model counts as captured if an exact layer ends there, but for rounding.
+constexpr double captured_tolerance = 1e-5;
+
+void require_equal_sizes(const Part& part) {
+    const ImageView& first = part.layers.front().outer.depth;
+    for (const Layer& layer : part.layers) {
+        for (const Surface* s : {&layer.outer, &layer.inner}) {
+            if (!s->empty() && (s->depth.width != first.width || s->depth.height != first.height))
+                throw Error(ExitCode::unsupported,
+                            "the map's depth images differ in size, which cannot be measured");
+        }
+    }
+}
+
+// A map without any surface is its centre: the distance to it is what is left to measure.
+class DistanceTo {
+public:
+    explicit DistanceTo(const MapSurface& surface) {
+        if (!surface.triangles.empty()) scene_.emplace(surface.positions, surface.triangles);
+    }
+    [[nodiscard]] double operator()(Vec3d p) const {
+        return scene_ ? scene_->closest_point(p).distance : length(p);
+    }
+
+private:
+    std::optional<trace::TriangleScene> scene_;
+};
+
+MapSurface stored_surface(const Part& part, double scale) {
+    MapSurface result;
+    for (const Layer& layer : part.layers) {
+        for (const Surface* s : {&layer.outer, &layer.inner}) {
+            if (s->empty()) continue;
+            std::vector<double> depth;
+            for (std::uint32_t y = 0; y < s->depth.height; ++y) {
+                for (std::uint32_t x = 0; x < s->depth.width; ++x)
+                    depth.push_back(scale * double(decode_depth(s->depth.format, s->depth.at(x, y))));
+            }
+            append_surface({part.mapping, s->depth.width, s->depth.height}, depth, part.frame, result);
+        }
+    }
+    return result;
+}
+
+MapSurface exact_surface(const bake::SurfaceGrid& shape, const Mat3& frame) {
+    MapSurface result;
+    for (const std::vector<bake::SurfacePoint>& surface : shape.surfaces) {
+        std::vector<double> depth;
+        depth.reserve(surface.size());
+        for (const bake::SurfacePoint& p : surface) depth.push_back(double(p.radius));
+        append_surface(shape.grid, depth, frame, result);
+    }
+    return result;
+}
+
+// Points on the model's surface, without those where alpha leaves none.
+std::vector<SurfaceSample> visible_samples(const Model& model, const Reference& reference,
+                                           std::uint32_t count) {
+    std::vector<SurfaceSample> samples = sample_surface(reference.object_positions(), model.triangles, count);
+    const bake::Shader shader(reference.model());
+    std::erase_if(samples, [&](const SurfaceSample& s) {
+        return shader.needs_alpha(s.triangle) && !shader.color(s.triangle, s.barycentric, 0).visible;
+    });
+    return samples;
+}
+
+std::vector<char> find_captured(const std::vector<SurfaceSample>& samples, const Part& part,
+                                const Reference& reference) {
+    const Mat3 to_frame = inverse(part.frame);
+    const Grid& grid = reference.shape().grid;
+    std::vector<CenterRay> rays;
+    rays.reserve(samples.size());
+    for (const SurfaceSample& s : samples) {
+        const Vec3d q = to_frame * s.position;
+        const Vec2d at = position_of(grid, q);
+        rays.push_back({wrap(grid, std::llround(at.x), std::llround(at.y)), q});
+    }
+    const bake::SurfaceGrid surfaces = reference.cast(grid, rays, {});
+    std::vector<char> captured(samples.size(), 0);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const double radius = length(rays[i].direction);
+        for (const auto& surface : surfaces.surfaces)
+            if (surface[i].radius > 0 && std::abs(double(surface[i].radius) - radius) < captured_tolerance)
+                captured[i] = 1;
+    }
+    return captured;
+}
+
+void measure_surface(const Model& model, const Part& part, const Reference& reference,
+                     const MeasureOptions& options, const bake::Progress& progress, Measurement& result) {
+    const std::vector<SurfaceSample> samples = visible_samples(model, reference, options.surface_samples);
+    const std::vector<char> captured = find_captured(samples, part, reference);
+    const MapSurface stored = stored_surface(part, part.radius / reference.source_radius());
+    const MapSurface exact = exact_surface(reference.shape(), part.frame);
+    const DistanceTo to_stored(stored);
+    const DistanceTo to_exact(exact);
+    std::vector<double> distance(samples.size());
+    std::vector<double> exact_distance(samples.size());
+    bake::ProgressMeter meter(progress, samples.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), 256), [&](const auto& range) {
+        if (meter.cancelled()) return;
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            distance[i] = to_stored(samples[i].position);
+            exact_distance[i] = to_exact(samples[i].position);
+        }
+        meter.add(range.size());
+    });
+    meter.throw_if_cancelled();
+
+    std::vector<double> star;
+    std::vector<double> resolution;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        (captured[i] != 0 ? resolution : star).push_back(exact_distance[i]);
+    }
+    result.captured_area = samples.empty() ? 0 : double(resolution.size()) / double(samples.size());
+    result.surface_distance = distribution(std::move(distance));
+    result.star_error = distribution(std::move(star));
+    result.resolution_error = distribution(std::move(resolution));
+}
+
+WorstTexel worst_texel(const TexelErrors& errors, const Grid& grid, std::size_t i, double value) {
+    return {errors.layer, errors.side, {std::uint32_t(i % grid.width), std::uint32_t(i / grid.width)}, value};
+}
+
+struct Values {
+    std::vector<double> all;
+    std::optional<WorstTexel> worst;
+
+    void add(const TexelErrors& errors, const Grid& grid, std::size_t i, double value) {
+        if (std::isnan(value)) return;
+        all.push_back(value);
+        if (worst && !(value > worst->value)) return;
+        worst = worst_texel(errors, grid, i, value);
+    }
+};
+
+void summarize(const Part& part, double scale, Measurement& result) {
+    Values distance;
+    Values depth;
+    Values normal;
+    Values color;
+    CoverageFigures& coverage = result.coverage;
+    QuantizationFigures& quantization = result.quantization;
+    for (const TexelErrors& errors : result.texels) {
+        const double bound =
+            depth_quantum_error(surface_of(part, errors.layer, errors.side).depth.format) * scale;
+        const ImageView normals = surface_of(part, errors.layer, errors.side).normal;
+        const double normal_bound = normals.empty() ? 180 : normal_tolerance(normals.format);
+        quantization.bound = std::max(quantization.bound, bound);
+        coverage.texels += errors.state.size();
+        coverage.color_missing += errors.color_missing;
+        coverage.color_extra += errors.color_extra;
+        for (std::size_t i = 0; i < errors.state.size(); ++i) {
+            const TexelState state = errors.state[i];
+            if (state == TexelState::tie) ++coverage.ties;
+            if (state == TexelState::missing && ++coverage.missing == 1)
+                result.first_missing = worst_texel(errors, errors.grid, i, 0);
+            if (state == TexelState::extra && ++coverage.extra == 1)
+                result.first_extra = worst_texel(errors, errors.grid, i, 0);
+            if (double(errors.normal[i]) > normal_bound) ++result.normals_above;
+            if (double(errors.depth[i]) > bound + float_rounding) ++quantization.above;
+            if (std::isnan(errors.distance[i]) && !std::isnan(errors.depth[i])) ++result.shell_ends;
+            distance.add(errors, errors.grid, i, double(errors.distance[i]));
+            depth.add(errors, errors.grid, i, double(errors.depth[i]));
+            normal.add(errors, errors.grid, i, double(errors.normal[i]));
+        }
+        for (std::size_t i = 0; i < errors.color.size(); ++i) {
+            for (const float difference : errors.color[i])
+                color.add(errors, errors.color_grid, i, difference);
+        }
+    }
+    result.texel_distance = distribution(std::move(distance.all));
+    quantization.error = distribution(std::move(depth.all));
+    result.normal_angle = distribution(std::move(normal.all));
+    result.color_difference = distribution(std::move(color.all));
+    result.worst_distance = distance.worst;
+    result.worst_depth = depth.worst;
+    result.worst_normal = normal.worst;
+    result.worst_color = color.worst;
+}
+
+} // namespace
+
+Measurement measure_map(const Model& model, const Part& part, const MeasureOptions& options,
+                        const bake::Progress& progress) {
+    require_equal_sizes(part);
+    const auto between = [&](double from, double to) {
+        return progress ? bake::Progress(
+                              [&progress, from, to](double f) { return progress(from + (to - from) * f); })
+                        : bake::Progress{};
+    };
+    Measurement result;
+    tbb::task_arena arena(bake::arena_concurrency(options.threads));
+    arena.execute([&] {
+        const Reference reference(model, part, options.threads, between(0, 0.3));
+        result.source_radius = reference.source_radius();
+        result.texels =
+            texel_errors(part, reference, options.color_samples, options.threads, between(0.3, 0.6));
+        measure_surface(model, part, reference, options, between(0.6, 1), result);
+    });
+    summarize(part, part.radius / result.source_radius, result);
+    return result;
+}
+
+ErrorFigures error_figures(const Measurement& m) {
+    ErrorFigures figures;
+    figures.texel_distance_max = float(m.texel_distance.max);
+    figures.texel_distance_mean = float(m.texel_distance.mean);
+    figures.surface_distance_max = float(m.surface_distance.max);
+    figures.surface_distance_mean = float(m.surface_distance.mean);
+    figures.captured_area = float(m.captured_area);
+    figures.normal_angle_mean = float(m.normal_angle.mean);
+    figures.color_difference_mean = float(m.color_difference.mean);
+    figures.quantization_bound = float(m.quantization.bound);
+    return figures;
+}
+
+} // namespace spa::measure

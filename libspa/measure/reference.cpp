@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference.h"
+
+#include "../bake/center.h"
+#include "../core/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spa::measure {
+namespace {
+
+double radius_about(const Model& model, Vec3d center, const Mat3& frame) {
+    const Mat3 to_frame = inverse(frame);
+    double radius = 0;
+    for (const Triangle& triangle : model.triangles) {
+        for (const std::uint32_t v : triangle.vertex)
+            radius = std::max(radius, length(to_frame * (to_double(model.positions[v]) - center)));
+    }
+    if (!(radius > 0) || !std::isfinite(radius))
+        throw Error(ExitCode::invalid_data,
+                    "the source model has no extent: there is nothing to measure against");
+    return radius * (1 + 1e-7); // as make_part_frame rounds it
+}
+
+} // namespace
+
+Reference::Reference(const Model& model, const Part& part, unsigned threads, const bake::Progress& progress)
+    : source_radius_(radius_about(model, part.center, part.frame)),
+      layers_(std::uint32_t(part.layers.size())),
+      outermost_only_(part.layers.size() == 1 && part.layers.front().inner.empty()), threads_(threads) {
+    model_ = std::make_unique<bake::CenteredModel>(
+        bake::center_model(model, {part.center, part.frame, source_radius_}));
+    scene_ = std::make_unique<trace::TriangleScene>(model_->positions, model.triangles);
+    if (!(part.frame == Mat3{})) {
+        object_positions_.reserve(model_->positions.size());
+        for (const Vec3f& q : model_->positions)
+            object_positions_.push_back(to_float(part.frame * to_double(q)));
+        object_scene_ = std::make_unique<trace::TriangleScene>(object_positions_, model.triangles);
+    }
+    const ImageView& depth = part.layers.front().outer.depth;
+    const Grid grid{part.mapping, depth.width, depth.height};
+    const bake::CrossingGrid crossings =
+        cast_embree(*model_, *scene_, grid, {outermost_only_, threads_, progress});
+    if (!outermost_only_) {
+        components_ = find_components(model);
+        orientation_ = bake::orient_components(crossings, components_);
+    }
+    shape_ = pair(crossings);
+}
+
+std::span<const Vec3f> Reference::object_positions() const {
+    return object_positions_.empty() ? model_->positions : object_positions_;
+}
+
+bake::SurfaceGrid Reference::pair(const bake::CrossingGrid& crossings) const {
+    if (outermost_only_) return bake::outermost_surface(crossings);
+    bake::IntervalStatistics statistics;
+    return bake::pair_intervals(crossings, components_, orientation_, layers_, statistics);
+}
+
+bake::SurfaceGrid Reference::cast(const Grid& grid, const bake::Progress& progress) const {
+    return pair(cast_embree(*model_, *scene_, grid, {outermost_only_, threads_, progress}));
+}
+
+bake::SurfaceGrid Reference::cast(const Grid& grid, std::span<const CenterRay> rays,
+                                  const bake::Progress& progress) const {
+    return pair(cast_embree(*model_, *scene_, grid, rays, {outermost_only_, threads_, progress}));
+}
+
+} // namespace spa::measure

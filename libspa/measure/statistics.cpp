@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spa::measure {
+
+Distribution distribution(std::vector<double> values) {
+    Distribution result;
+    if (values.empty()) return result;
+    result.count = values.size();
+    double sum = 0;
+    double squares = 0;
+    for (const double v : values) {
+        result.max = std::max(result.max, v);
+        sum += v;
+        squares += v * v;
+    }
+    result.mean = sum / double(values.size());
+    result.rms = std::sqrt(squares / double(values.size()));
+    const auto rank = std::size_t(std::ceil(0.95 * double(values.size()))) - 1;
+    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(rank), values.end());
+    result.p95 = values[rank];
+    return result;
+}
+
+} // namespace spa::measure

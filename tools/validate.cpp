@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heat_sheet.h"
+#include "interrupt.h"
+#include "map_source.h"
+#include "output.h"
+#include "progress.h"
+#include "validate_report.h"
+#include "verb.h"
+
+#include "arguments.h"
+
+#include <array>
+#include <iostream>
+#include <memory>
+
+namespace spa::tools {
+
+namespace {
+
+using measure::Measurement;
+using measure::WorstTexel;
+
+struct Threshold {
+    const char* option;
+    const char* value_name;
+    const char* description;
+    double (*value)(const Measurement&);
+    std::optional<WorstTexel> (*at)(const Measurement&); // null: a figure without a place
+};
+
+constexpr std::array thresholds{
+    Threshold{"--max-texel-distance", "R", "Largest distance of a stored point to the source, in radii",
+              [](const Measurement& m) { return m.texel_distance.max; },
+              [](const Measurement& m) { return m.worst_distance; }},
+    Threshold{"--max-surface-distance", "R",
+              "Largest distance of the source's surface to the map's, in radii",
+              [](const Measurement& m) { return m.surface_distance.max; }, nullptr},
+    Threshold{"--max-normal", "DEG", "Largest angle between a stored normal and the source's, in degrees",
+              [](const Measurement& m) { return m.normal_angle.max; },
+              [](const Measurement& m) { return m.worst_normal; }},
+    Threshold{"--max-color", "CODES", "Largest difference of red, green or blue, in codes of 255",
+              [](const Measurement& m) { return m.color_difference.max; },
+              [](const Measurement& m) { return m.worst_color; }},
+    Threshold{"--min-captured", "SHARE", "Smallest share of the source's area that the layers hold, 0 to 1",
+              [](const Measurement& m) { return m.captured_area; }, nullptr},
+    Threshold{"--min-coverage", "SHARE",
+              "Smallest share of texels that have a surface where the source has one, 0 to 1",
+              [](const Measurement& m) { return m.coverage.share(); }, nullptr},
+};
+
+struct Arguments {
+    std::string input;
+    std::filesystem::path source, heat;
+    std::array<std::optional<double>, thresholds.size()> limits;
+    std::optional<ReportFormat> format;
+    bool quiet = false;
+
+    [[nodiscard]] bool needs_source() const {
+        return !source.empty() || !heat.empty() ||
+               std::any_of(limits.begin(), limits.end(), [](const auto& limit) { return limit.has_value(); });
+    }
+};
+
+std::vector<Judged> judge(const Arguments& arguments, const Measurement& measurement) {
+    std::vector<Judged> all;
+    for (std::size_t i = 0; i < thresholds.size(); ++i) {
+        if (!arguments.limits[i]) continue;
+        const Threshold& threshold = thresholds[i];
+        Judged judged{threshold.option, *arguments.limits[i], threshold.value(measurement), true, {}};
+        const bool at_least = judged.option.starts_with("--min");
+        judged.met = at_least ? judged.value >= judged.limit : judged.value <= judged.limit;
+        if (threshold.at != nullptr) judged.at = threshold.at(measurement);
+        all.push_back(judged);
+    }
+    return all;
+}
+
+// The options of the bake that a measurement depends on; what another program wrote may lack them.
+const nlohmann::ordered_json& bake_option(const nlohmann::ordered_json& metadata, const char* name,
+                                          const nlohmann::ordered_json& otherwise) {
+    if (!metadata.is_object() || !metadata.contains("options")) return otherwise;
+    const auto& options = metadata["options"];
+    return options.is_object() && options.contains(name) ? options[name] : otherwise;
+}
+
+void measure_source(const Arguments& arguments, const MapFile& file, const std::filesystem::path& path,
+                    Validation& validation) {
+    const std::string title = std::filesystem::path(file.name).filename().string();
+    spa::import::Result source;
+    {
+        const SlowStep step("reading " + path.filename().string(), arguments.quiet);
+        source = import::read_model(path);
+    }
+    validation.source = {path, differing_files(file, source.report)};
+    if (!validation.source->differing.empty()) {
+        std::string names;
+        for (const std::string& name : validation.source->differing)
+            names += (names.empty() ? "" : ", ") + name;
+        std::cerr << "spa: warning: " << path.string() << " is not what " << file.name
+                  << " was baked from: the hash differs for " << names << '\n';
+    }
+    if (file.map().parts.size() > 1)
+        throw Error(ExitCode::unsupported, file.name + ": has " + std::to_string(file.map().parts.size()) +
+                                               " parts; only maps of one part can be measured");
+    const Part& part = file.map().parts.front();
+    const auto metadata = parse_metadata(file.map());
+    const auto samples = bake_option(metadata, "samples", 1);
+    const bool orbit = bake_option(metadata, "baker", "") == "orbit";
+    measure::MeasureOptions options;
+    if (samples.is_number_unsigned() && samples.get<std::uint64_t>() <= 8)
+        options.color_samples = std::max(1U, samples.get<std::uint32_t>());
+    ProgressReport progress("measuring " + title, arguments.quiet);
+    const InterruptGuard guard;
+    validation.measurement = measure::measure_map(source.model, part, options, [&](double share) {
+        progress.update(share);
+        return interrupt_signal() == 0;
+    });
+    // Colours filtered by a texture unit may round otherwise; the bakers' agreement allows as much.
+    validation.findings = measure::find_defects(part, *validation.measurement, orbit ? 1.0 : 0.0);
+    validation.thresholds = judge(arguments, *validation.measurement);
+    if (arguments.heat.empty()) return;
+    StagedFile staged(arguments.heat);
+    staged.write(encode_png(heat_sheet(part, *validation.measurement, title)));
+    InterruptGuard::check();
+    staged.commit();
+}
+
+void validate(const Arguments& arguments) {
+    if (!arguments.heat.empty()) {
+        const std::filesystem::path inputs[] = {arguments.input, arguments.source};
+        check_output_file(arguments.heat, inputs);
+    }
+    const MapFile file = open_map(arguments.input);
+    const std::filesystem::path path = arguments.source.empty() ? source_beside(file) : arguments.source;
+    Validation validation;
+    if (!path.empty()) {
+        measure_source(arguments, file, path, validation);
+    } else if (arguments.needs_source()) {
+        throw Error(ExitCode::input_output,
+                    file.name + ": the file it was baked from does not lie beside it; name it with --source");
+    }
+    if (arguments.format)
+        print(*arguments.format == ReportFormat::json ? json_text(validate_json(file, validation))
+                                                      : validate_text(file, validation));
+    std::string failed;
+    for (const Judged& judged : validation.thresholds)
+        if (!judged.met) failed += (failed.empty() ? "" : "; ") + judged.sentence();
+    for (const measure::Finding& finding : validation.findings)
+        std::cerr << "spa: " << file.name << ": " << finding.message << '\n';
+    if (!failed.empty()) throw Error(ExitCode::limits, file.name + ": " + failed);
+    if (!validation.findings.empty())
+        throw Error(ExitCode::limits, file.name + ": is not what a bake of " + path.filename().string() +
+                                          " would hold; see above");
+}
+
+} // namespace
+
+Verb validate_verb() {
+    return {
+        .name = "validate",
+        .summary = "check a .spa file, and measure it against its source",
+        .description =
+            "Checks the container in full. If the asset it was baked from lies beside it, under the name "
+            "that "
+            "the "
+            "metadata gives, or is named by --source, every texel is also re-projected to a point in space "
+            "and "
+            "measured against the asset's triangles, and the asset's surface against the map: distances both "
+            "ways, the share of the surface that the layers hold, normals, colours, coverage, and whether "
+            "every "
+            "depth is as exact as its element format allows. docs/measures.md explains each figure.\n\n"
+            "Silent if all is well, unless --format asks for a report. A figure beyond a threshold ends with "
+            "exit status 6 and so does a finding: something that no correct bake of the source would hold, "
+            "such as a "
+            "hole, a wrong radius, or a depth off by more than quantization. Each is named with its place. A "
+            "damaged file ends with status 3. A source whose hash is not the one in the metadata is measured "
+            "all the same, with a warning.\n\n"
+            "--heat draws for every surface where it is wrong and by how much.",
+        .examples = "$ spa validate boot.spa\n"
+                    "$ spa validate boot.spa --format text\n"
+                    "$ spa validate boot.spa --source models/boot.glb --heat heat.png\n"
+                    "$ spa validate boot.spa --max-surface-distance 0.01 --min-captured 0.99\n"
+                    "$ spa validate boot.spa --format json | jq .figures.hausdorff",
+        .see_also = "spa bake, spa compare, spa inspect",
+        .define = [](CLI::App& app) -> std::function<void()> {
+            const auto arguments = std::make_shared<Arguments>();
+            add_text(app, "FILE", "FILE", "The .spa file; - reads standard input",
+                     [arguments](const std::string& text) { arguments->input = text; })
+                ->required();
+            add_path(app, "--source", "MESH", "The asset to measure against", arguments->source);
+            add_path(app, "--heat", "OUT.png", "Draw the errors of every texel into this file",
+                     arguments->heat);
+            for (std::size_t i = 0; i < thresholds.size(); ++i)
+                add_text(app, thresholds[i].option, thresholds[i].value_name, thresholds[i].description,
+                         [arguments, i](const std::string& text) {
+                             arguments->limits[i] = parse_measure(thresholds[i].option, text);
+                         });
+            add_choice<ReportFormat>(app, "--format", {ReportFormat::text, ReportFormat::json},
+                                     "Report on standard output as text for people or as JSON",
+                                     [arguments](ReportFormat given) { arguments->format = given; });
+            app.add_flag("-q,--quiet", arguments->quiet, "No progress on standard error");
+            return [arguments] { validate(*arguments); };
+        },
+    };
+}
+
+} // namespace spa::tools
