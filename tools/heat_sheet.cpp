@@ -36,11 +36,34 @@ Picture draw_color(const TexelErrors& errors) {
     return picture;
 }
 
+// The source's surface as the centre sees it, the worst distance to the map in each direction; `captured`:
+// only what the layers hold, or only what they do not.
+Picture draw_surface(const measure::Measurement& measurement, Mapping mapping, bool captured) {
+    // Coarse enough for several points a texel.
+    const Grid grid = mapping == Mapping::octahedral ? Grid{mapping, 129, 129} : Grid{mapping, 180, 90};
+    std::vector<float> worst(std::size_t(grid.width) * grid.height, std::nanf(""));
+    for (const measure::SurfaceError& error : measurement.surface) {
+        if (error.captured != captured) continue;
+        const Vec2d at = position_of(grid, to_double(error.direction));
+        const TexelIndex texel = wrap(grid, std::llround(at.x), std::llround(at.y));
+        float& value = worst[std::size_t(texel.y) * grid.width + texel.x];
+        value = std::isnan(value) ? error.distance : std::max(value, error.distance);
+    }
+    Picture picture(grid.width, grid.height, no_surface_color);
+    for (std::size_t i = 0; i < worst.size(); ++i)
+        if (!std::isnan(worst[i])) picture.pixels[i] = heat_color(depth_heat, double(worst[i]));
+    return picture;
+}
+
 } // namespace
 
 Picture heat_sheet(const Part& part, const measure::Measurement& measurement, const std::string& title) {
     const SheetScale scale(measurement.texels.size());
     std::vector<SheetRow> rows;
+    rows.push_back(
+        {"the source",
+         {make_cell("captured, to the map", draw_surface(measurement, part.mapping, true), scale),
+          make_cell("not captured, to the map", draw_surface(measurement, part.mapping, false), scale)}});
     for (const TexelErrors& errors : measurement.texels) {
         const ImageView color = measure::surface_of(part, errors.layer, errors.side).color;
         rows.push_back({"layer " + std::to_string(errors.layer) + "  " + measure::name(errors.side),

@@ -10,8 +10,10 @@
 
 namespace spa::tools {
 
-// One row a surface: its colours, then the distance of every texel to the source, the error of its normal and
-// of its colour on logarithmic scales; texels that are missing or too many are marked.
+// First the source's surface as the centre sees it, with the worst distance to the map in each direction,
+// apart for what the layers hold and what they do not. Then one row a surface: its colours, the distance of
+// every texel to the source, the error of its normal and of its colour on logarithmic scales; texels that are
+// missing or too many are marked.
 Picture heat_sheet(const Part& part, const measure::Measurement& measurement, const std::string& title);
 
 } // namespace spa::tools

@@ -18,8 +18,10 @@ constexpr auto line_every = std::chrono::seconds(5);
 constexpr int bar_cells = 30;
 } // namespace
 
+bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
+
 ProgressReport::ProgressReport(std::string task, bool quiet)
-    : task_(std::move(task)), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1),
+    : task_(std::move(task)), quiet_(quiet), terminal_(stderr_is_terminal()),
       next_(Clock::now() + first_after) {}
 
 ProgressReport::~ProgressReport() {

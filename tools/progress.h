@@ -8,6 +8,9 @@
 
 namespace spa::tools {
 
+// Where plain lines would break a promise of silence, progress is for terminals only.
+bool stderr_is_terminal();
+
 class ProgressReport {
 public:
     // task: such as "baking boot.glb".

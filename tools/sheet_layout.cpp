@@ -23,12 +23,14 @@ std::uint32_t picture_height(const SheetRow& row) {
 
 // As wide as the widest picture and label in it.
 std::vector<std::uint32_t> column_widths(const std::vector<SheetRow>& rows, const SheetScale& scale) {
-    std::vector<std::uint32_t> widths(rows.empty() ? 0 : rows.front().cells.size(), 0);
-    for (const SheetRow& row : rows)
-        for (std::size_t c = 0; c < widths.size(); ++c) {
+    std::vector<std::uint32_t> widths;
+    for (const SheetRow& row : rows) {
+        widths.resize(std::max(widths.size(), row.cells.size()), 0);
+        for (std::size_t c = 0; c < row.cells.size(); ++c) {
             const auto label = std::uint32_t(row.cells[c].label.size()) * label_advance * scale.text;
             widths[c] = std::max({widths[c], row.cells[c].picture.width, std::min(label, scale.cell_width)});
         }
+    }
     return widths;
 }
 
@@ -60,6 +62,11 @@ Picture lay_out_sheet(const std::string& title, const SheetLegend& legend, const
     const std::uint32_t line = line_height(scale);
     std::uint32_t width = margin;
     for (const std::uint32_t column : widths) width += column + margin;
+    for (const auto& items : legend.lines_) {
+        std::uint32_t characters = 0;
+        for (const SheetLegend::Item& item : items) characters += item.width;
+        width = std::max(width, 2 * margin + characters * label_advance * scale.text);
+    }
     std::uint32_t height = 2 * margin + (1 + std::uint32_t(legend.lines_.size())) * line;
     for (const SheetRow& row : rows) height += margin + 2 * line + picture_height(row);
     Picture sheet(width, height, background);
@@ -83,7 +90,7 @@ Picture lay_out_sheet(const std::string& title, const SheetLegend& legend, const
         draw_label(sheet, margin, y, row.heading, text_color, scale.text);
         y += line;
         std::uint32_t x = margin;
-        for (std::size_t c = 0; c < widths.size(); ++c) {
+        for (std::size_t c = 0; c < row.cells.size(); ++c) {
             draw_label(sheet, x, y, row.cells[c].label, dim_color, scale.text);
             paste(sheet, row.cells[c].picture, x, y + line);
             x += widths[c] + margin;

@@ -49,7 +49,6 @@ private:
     std::vector<std::vector<Item>> lines_{1};
 };
 
-// All rows have the same number of cells.
 Picture lay_out_sheet(const std::string& title, const SheetLegend& legend, const std::vector<SheetRow>& rows,
                       const SheetScale& scale);
 

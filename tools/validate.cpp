@@ -169,7 +169,8 @@ Verb validate_verb() {
             "ways, the share of the surface that the layers hold, normals, colours, coverage, and whether "
             "every "
             "depth is as exact as its element format allows. docs/measures.md explains each figure.\n\n"
-            "Silent if all is well, unless --format asks for a report. A figure beyond a threshold ends with "
+            "Silent if all is well, unless --format asks for a report (on a terminal a bar shows progress). "
+            "A figure beyond a threshold ends with "
             "exit status 6 and so does a finding: something that no correct bake of the source would hold, "
             "such as a "
             "hole, a wrong radius, or a depth off by more than quantization. Each is named with its place. A "
@@ -199,7 +200,10 @@ Verb validate_verb() {
                                      "Report on standard output as text for people or as JSON",
                                      [arguments](ReportFormat given) { arguments->format = given; });
             app.add_flag("-q,--quiet", arguments->quiet, "No progress on standard error");
-            return [arguments] { validate(*arguments); };
+            return [arguments] {
+                arguments->quiet = arguments->quiet || !stderr_is_terminal();
+                validate(*arguments);
+            };
         },
     };
 }

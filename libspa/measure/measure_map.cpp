@@ -85,8 +85,9 @@ std::vector<SurfaceSample> visible_samples(const Model& model, const Reference& 
     return samples;
 }
 
-std::vector<char> find_captured(const std::vector<SurfaceSample>& samples, const Part& part,
-                                const Reference& reference) {
+// Fills in all but the distances.
+std::vector<SurfaceError> find_captured(const std::vector<SurfaceSample>& samples, const Part& part,
+                                        const Reference& reference) {
     const Mat3 to_frame = inverse(part.frame);
     const Grid& grid = reference.shape().grid;
     std::vector<CenterRay> rays;
@@ -97,20 +98,22 @@ std::vector<char> find_captured(const std::vector<SurfaceSample>& samples, const
         rays.push_back({wrap(grid, std::llround(at.x), std::llround(at.y)), q});
     }
     const bake::SurfaceGrid surfaces = reference.cast(grid, rays, {});
-    std::vector<char> captured(samples.size(), 0);
+    std::vector<SurfaceError> result;
+    result.reserve(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) {
+        result.push_back({to_float(rays[i].direction), 0, false});
         const double radius = length(rays[i].direction);
         for (const auto& surface : surfaces.surfaces)
             if (surface[i].radius > 0 && std::abs(double(surface[i].radius) - radius) < captured_tolerance)
-                captured[i] = 1;
+                result.back().captured = true;
     }
-    return captured;
+    return result;
 }
 
 void measure_surface(const Model& model, const Part& part, const Reference& reference,
                      const MeasureOptions& options, const bake::Progress& progress, Measurement& result) {
     const std::vector<SurfaceSample> samples = visible_samples(model, reference, options.surface_samples);
-    const std::vector<char> captured = find_captured(samples, part, reference);
+    result.surface = find_captured(samples, part, reference);
     const MapSurface stored = stored_surface(part, part.radius / reference.source_radius());
     const MapSurface exact = exact_surface(reference.shape(), part.frame);
     const DistanceTo to_stored(stored);
@@ -131,7 +134,9 @@ void measure_surface(const Model& model, const Part& part, const Reference& refe
     std::vector<double> star;
     std::vector<double> resolution;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        (captured[i] != 0 ? resolution : star).push_back(exact_distance[i]);
+        SurfaceError& error = result.surface[i];
+        error.distance = float(distance[i]);
+        (error.captured ? resolution : star).push_back(exact_distance[i]);
     }
     result.captured_area = samples.empty() ? 0 : double(resolution.size()) / double(samples.size());
     result.surface_distance = distribution(std::move(distance));

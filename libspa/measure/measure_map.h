@@ -45,6 +45,13 @@ struct WorstTexel {
     double value = 0;
 };
 
+// A point of the model's surface and the map.
+struct SurfaceError {
+    Vec3f direction; // from the centre, frame space, any length
+    float distance;  // to the map's surface, in R
+    bool captured;   // an exact layer ends here
+};
+
 // Distances are in units of R, the radius of the model's bounding sphere about the map's centre.
 struct Measurement {
     double source_radius = 0;      // R, in frame units; part.radius is to be equal
@@ -64,6 +71,7 @@ struct Measurement {
     std::optional<WorstTexel> worst_distance, worst_normal, worst_color, worst_depth;
     std::optional<WorstTexel> first_missing, first_extra;
     std::vector<TexelErrors> texels;
+    std::vector<SurfaceError> surface;
 
     [[nodiscard]] double hausdorff() const {
         return texel_distance.max > surface_distance.max ? texel_distance.max : surface_distance.max;
