@@ -37,6 +37,18 @@ bake::Result bake_with_progress(const BakeArguments& arguments, const Model& mod
     });
 }
 
+measure::Measurement measure_with_progress(const BakeArguments& arguments, const Model& model,
+                                           const Part& part) {
+    ProgressReport progress("measuring " + arguments.output.filename().string(), arguments.quiet);
+    measure::MeasureOptions options;
+    options.color_samples = arguments.options.samples;
+    options.threads = arguments.options.threads;
+    return measure::measure_map(model, part, options, [&progress](double share) {
+        progress.update(share);
+        return interrupt_signal() == 0;
+    });
+}
+
 std::vector<std::byte> encode(const SphericalMap& map, const BakeArguments& arguments) {
     const SlowStep step("writing " + arguments.output.filename().string(), arguments.quiet);
     container::WriteOptions options;
@@ -62,11 +74,19 @@ void bake_asset(const BakeArguments& arguments) {
     check_inputs(arguments, source.report);
 
     bake::Result result;
+    std::optional<measure::Measurement> measurement;
+    BakeFacts facts{arguments, source, result.report};
     std::vector<std::byte> bytes;
     {
         const InterruptGuard guard;
         result = bake_with_progress(arguments, source.model);
-        result.map.map.metadata = metadata({arguments, source, result.report});
+        Part& part = result.map.map.parts.front();
+        if (arguments.measure) {
+            measurement = measure_with_progress(arguments, source.model, part);
+            part.errors = measure::error_figures(*measurement);
+        }
+        facts.measurement = measurement ? &*measurement : nullptr;
+        result.map.map.metadata = metadata(facts);
         bytes = encode(result.map.map, arguments);
         InterruptGuard::check();
         StagedFile file(arguments.output);
@@ -75,7 +95,6 @@ void bake_asset(const BakeArguments& arguments) {
         file.commit();
     }
 
-    const BakeFacts facts{arguments, source, result.report};
     for (const std::string& warning : warnings(facts)) std::cerr << "spa: warning: " << warning << '\n';
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     print(arguments.format == ReportFormat::json
@@ -106,6 +125,7 @@ Verb bake_verb() {
                     "$ spa bake boot.glb -o boot.spa --size 512 --color-size 1024 --samples 4\n"
                     "$ spa bake boot.glb -o boot.spa --mapping latlong --size 1024x512\n"
                     "$ spa bake boot.glb -o boot.spa --paper --baker orbit\n"
+                    "$ spa bake boot.glb -o boot.spa --measure\n"
                     "$ spa bake boot.glb -o boot.spa --format json | jq .report",
         .see_also = "spa inspect, spa extract, spa sample",
         .define = [](CLI::App& app) -> std::function<void()> {

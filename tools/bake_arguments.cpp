@@ -186,6 +186,9 @@ std::function<BakeArguments()> define_bake_arguments(CLI::App& app) {
         "Compression of the sections; without it a file can be mapped into memory as it is",
         [&arguments](Compression compression) { arguments.compress = compression == Compression::zstd; })
         ->default_str("zstd");
+    app.add_flag("--measure", arguments.measure,
+                 "Measure the map against the asset, as 'spa validate' does, and write the figures into the "
+                 "file and the report");
     add_report_format(app, arguments.format);
     app.add_flag("-q,--quiet", arguments.quiet, "No progress on standard error");
     return [given] { return complete(*given); };
@@ -211,6 +214,7 @@ nlohmann::ordered_json options_json(const BakeArguments& arguments) {
         {"gl", name(options.gl)},
         {"samples", options.samples},
         {"compress", name(arguments.compress ? Compression::zstd : Compression::none)},
+        {"measure", arguments.measure},
     };
 }
 

@@ -19,6 +19,7 @@ struct BakeArguments {
     std::filesystem::path input, output;
     bake::Options options;
     bool compress = true; // zstd
+    bool measure = false;
     ReportFormat format = ReportFormat::text;
     bool quiet = false;
 };

@@ -2,6 +2,7 @@
 #include "bake_report.h"
 
 #include "text.h"
+#include "validate_report.h"
 
 namespace spa::tools {
 
@@ -88,6 +89,11 @@ std::string mesh_text(const bake::Report& bake) {
     return text + (bake.center_inside ? ", centre inside the solid" : ", centre outside the solid");
 }
 
+std::string measured_text(const measure::Measurement& m) {
+    return "texels to source " + significant(m.texel_distance.max, 3) + " R at most, source to map " +
+           significant(m.surface_distance.max, 3) + " R, " + percent(m.captured_area, 2) + " captured";
+}
+
 } // namespace
 
 std::string metadata(const BakeFacts& facts) {
@@ -96,13 +102,14 @@ std::string metadata(const BakeFacts& facts) {
     for (const std::string& warning : warnings(facts))
         messages.push_back(without_folder(warning, facts.arguments.input));
     report["warnings"] = messages;
-    const Json json = {
+    Json json = {
         {"generator", {{"name", "spa"}, {"version", SPA_VERSION}}},
         {"source", source_json(facts)},
         {"options", options_json(facts.arguments)},
         {"report", report},
         {"units", "object"},
     };
+    if (facts.measurement != nullptr) json["figures"] = figures_json(*facts.measurement);
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -120,6 +127,7 @@ Json report_json(const BakeFacts& facts, Json output, double seconds) {
         {"source", source_json(facts)},
         {"options", options_json(facts.arguments)},
         {"report", report},
+        {"figures", facts.measurement == nullptr ? Json(nullptr) : figures_json(*facts.measurement)},
         {"output", std::move(output)},
         {"seconds", seconds},
     };
@@ -139,6 +147,7 @@ std::string report_text(const BakeFacts& facts, std::uint64_t output_bytes, doub
         text += line(i == 0 ? "layers" : "",
                      std::to_string(i) + ": outer surface in " + percent(bake.layers[i].outer_coverage) +
                          " of all directions, inner in " + percent(bake.layers[i].inner_coverage));
+    if (facts.measurement != nullptr) text += line("measured", measured_text(*facts.measurement));
     text += line("bytes", std::to_string(output_bytes) + " (" + byte_count(output_bytes) + ")");
     return text + line("time", fixed(seconds, 2) + " s");
 }

@@ -7,6 +7,7 @@
 
 #include "../formats/import/import.h"
 #include "../libspa/bake/bake.h"
+#include "../libspa/measure/measure_map.h"
 
 #include <nlohmann/json.hpp>
 
@@ -21,10 +22,12 @@ struct BakeFacts {
     const BakeArguments& arguments;
     const import::Result& source;
     const bake::Report& bake;
+    const measure::Measurement* measurement = nullptr; // null: not measured
 };
 
-// Compact JSON, UTF-8: generator, source, options, report, units. The same for the same input and options,
-// wherever the input lies and whatever the machine: no path, no time, no name of a machine or driver.
+// Compact JSON, UTF-8: generator, source, options, report, figures (if measured), units. The same for the
+// same input and options, wherever the input lies and whatever the machine: no path, no time, no name of a
+// machine or driver.
 std::string metadata(const BakeFacts& facts);
 
 // The warnings of the import and of the bake, in this order.

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// A defect planted in a map is found, and named with its place; a map without one has no finding.
+#include "../../libspa/measure/findings.h"
+#include "defects.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tuple>
+
+namespace spa::measure {
+namespace {
+
+using Case = std::tuple<std::string, Mapping, std::uint32_t, bake::Frame>;
+
+bake::Options options_of(const Case& c) {
+    const auto& [sample, mapping, layers, frame] = c;
+    bake::Options options = test::small_options();
+    if (mapping == Mapping::latlong) options.grid = options.color_grid = {mapping, 96, 48};
+    options.layers = layers;
+    options.frame = frame;
+    return options;
+}
+
+std::vector<Finding> findings_of(const Model& model, const bake::Result& baked) {
+    const Part& part = baked.map.map.parts.front();
+    return find_defects(part, measure_map(model, part, {2000, 1, 0}), 0);
+}
+
+class CleanMap : public testing::TestWithParam<Case> {};
+
+TEST_P(CleanMap, HasNoFinding) {
+    const Model model = test::sample_model(std::get<0>(GetParam()));
+    const bake::Result baked = bake::bake_model(model, options_of(GetParam()));
+    for (const Finding& finding : findings_of(model, baked)) ADD_FAILURE() << finding.message;
+}
+
+std::string case_name(const testing::TestParamInfo<Case>& info) {
+    const auto& [sample, mapping, layers, frame] = info.param;
+    return sample + "_" + name(mapping) + "_" + std::to_string(layers) +
+           (frame == bake::Frame::affine ? "_affine" : "");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Samples, CleanMap,
+    testing::Combine(testing::Values("sphere", "cube", "torus", "boot", "spiky", "cliff", "concave"),
+                     testing::Values(Mapping::octahedral, Mapping::latlong), testing::Values(1U, 2U),
+                     testing::Values(bake::Frame::sphere, bake::Frame::affine)),
+    case_name);
+
+class PlantedDefect : public testing::Test {
+protected:
+    PlantedDefect()
+        : model_(test::sample_model("boot")), baked_(bake::bake_model(model_, test::small_options())) {}
+
+    Surface& outer() { return baked_.map.map.parts[0].layers[0].outer; }
+
+    // The one finding that there is.
+    Finding only_finding() {
+        const std::vector<Finding> findings = findings_of(model_, baked_);
+        EXPECT_EQ(findings.size(), 1U);
+        for (const Finding& f : findings) SCOPED_TRACE(f.message);
+        return findings.empty() ? Finding{"none", "", {}} : findings.front();
+    }
+
+    void expect(const std::string& kind, TexelIndex at) {
+        const Finding finding = only_finding();
+        EXPECT_EQ(finding.kind, kind) << finding.message;
+        ASSERT_TRUE(finding.at.has_value());
+        EXPECT_EQ(finding.at->texel, at);
+        EXPECT_EQ(finding.at->layer, 0U);
+        EXPECT_EQ(finding.at->side, Side::outer);
+    }
+
+    static constexpr TexelIndex at_{20, 30}; // well inside the boot's surface
+    Model model_;
+    bake::Result baked_;
+};
+
+TEST_F(PlantedDefect, OneTexelMoved) {
+    test::move_depth(baked_.map, outer().depth, at_, 40);
+    expect("depth", at_);
+    const Measurement m = measure_map(model_, baked_.map.map.parts[0], {2000, 1, 0});
+    EXPECT_EQ(m.quantization.above, 1U);
+    EXPECT_FALSE(m.quantization.holds());
+    EXPECT_NEAR(m.quantization.error.max, 40.0 / 65535, 1e-5);
+    ASSERT_TRUE(m.worst_distance.has_value());
+    EXPECT_EQ(m.worst_distance->texel, at_);
+    EXPECT_GT(m.texel_distance.max, 5.0 / 65535);
+}
+
+TEST_F(PlantedDefect, OneTexelMovedByTheLeastThatShows) {
+    test::move_depth(baked_.map, outer().depth, at_, 2);
+    expect("depth", at_);
+}
+
+TEST_F(PlantedDefect, AHole) {
+    for (std::uint32_t y = 30; y < 33; ++y)
+        for (std::uint32_t x = 20; x < 23; ++x) test::clear_depth(baked_.map, outer().depth, {x, y});
+    expect("missing", at_);
+    const Measurement m = measure_map(model_, baked_.map.map.parts[0], {2000, 1, 0});
+    EXPECT_EQ(m.coverage.missing, 9U);
+    EXPECT_DOUBLE_EQ(m.coverage.share(), 1 - 9.0 / double(m.coverage.texels));
+}
+
+TEST_F(PlantedDefect, ASurfaceWhereThereIsNone) {
+    // The boot's shaft is open: no surface straight up.
+    const TexelIndex up{32, 0};
+    std::uint16_t code = 0;
+    std::memcpy(&code, test::texel(baked_.map, outer().depth, up), 2);
+    ASSERT_EQ(code, 0);
+    test::move_depth(baked_.map, outer().depth, up, 30000);
+    expect("extra", up);
+}
+
+TEST_F(PlantedDefect, ARotatedNormal) {
+    std::byte* const code = test::texel(baked_.map, outer().normal, at_);
+    const Vec3d n = to_double(decode_normal(ElementFormat::oct16, code));
+    const Vec3d side = normalize(cross(n, Vec3d{0.3, 0.5, 0.8}));
+    const double angle = 2.0 * 3.14159265358979 / 180;
+    encode_normal(ElementFormat::oct16, n * std::cos(angle) + side * std::sin(angle), code);
+    expect("normal", at_);
+    EXPECT_NEAR(only_finding().at->value, 2, 0.01);
+}
+
+TEST_F(PlantedDefect, AColorOffByOne) {
+    test::add_to_color(baked_.map, outer().color, at_, 1);
+    expect("color", at_);
+    EXPECT_EQ(only_finding().at->value, 1);
+}
+
+TEST_F(PlantedDefect, AWrongRadius) {
+    baked_.map.map.parts[0].radius *= 1.01;
+    const std::vector<Finding> findings = findings_of(model_, baked_);
+    ASSERT_FALSE(findings.empty());
+    EXPECT_STREQ(findings.front().kind, "radius");
+    EXPECT_NE(findings.front().message.find("scaled by 1.01"), std::string::npos) << findings.front().message;
+    const Measurement m = measure_map(model_, baked_.map.map.parts[0], {2000, 1, 0});
+    EXPECT_GT(m.texel_distance.max, 0.009);
+    EXPECT_LT(m.texel_distance.max, 0.0101);
+}
+
+TEST_F(PlantedDefect, AWrongCenter) {
+    Part& part = baked_.map.map.parts[0];
+    part.center.x += 0.01 * part.radius;
+    const Measurement m = measure_map(model_, part, {2000, 1, 0});
+    EXPECT_NEAR(m.texel_distance.max, 0.01, 0.001);
+    EXPECT_FALSE(find_defects(part, m, 0).empty());
+}
+
+} // namespace
+} // namespace spa::measure
