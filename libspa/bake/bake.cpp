@@ -26,6 +26,8 @@ constexpr double on_surface_distance = 1e-4;
 
 // What can be said of the triangles as the centre sees them.
 void inspect_triangles(const CenteredModel& centered, Report& report) {
+    report.edge_on_triangles = 0;
+    report.center_on_surface = false;
     for (const Triangle& triangle : centered.model->triangles) {
         const Vec3d a = to_double(centered.positions[triangle.vertex[0]]);
         const Vec3d b = to_double(centered.positions[triangle.vertex[1]]);
@@ -52,16 +54,13 @@ std::uint64_t back_facing_samples(const CrossingGrid& crossings) {
 // that depth and colour are paired alike.
 class Surfaces {
 public:
-    // context: of the orbit; null for the radial baker.
-    Surfaces(const GlContext* context, const CenteredModel& model, const Components& components,
+    Surfaces(const Caster& caster, const CenteredModel& model, const Components& components,
              const Options& options, Report& report)
-        : context_(context), model_(model), components_(components), options_(options), report_(report) {}
+        : caster_(caster), model_(model), components_(components), options_(options), report_(report) {}
 
     SurfaceGrid cast(const Grid& grid, const Progress& progress) {
-        const CastOptions cast{options_.layers == 1, options_.threads, progress};
-        const CrossingGrid crossings = context_ != nullptr
-                                           ? cast_orbit(*context_, model_, grid, options_.gl_naive, cast)
-                                           : cast_radial(model_, grid, cast);
+        const CrossingGrid crossings =
+            caster_(model_, grid, {options_.layers == 1, options_.threads, progress});
         const bool first = orientation_.seen.empty();
         if (first) {
             orientation_ = orient_components(crossings, components_);
@@ -83,7 +82,7 @@ public:
     }
 
 private:
-    const GlContext* context_;
+    const Caster& caster_;
     const CenteredModel& model_;
     const Components& components_;
     const Options& options_;
@@ -99,6 +98,11 @@ void add_warnings(Report& report, const Options& options) {
     const auto warn = [&](std::string text) { report.warnings.push_back(std::move(text)); };
     if (report.layers.front().outer_coverage == 0) {
         warn("no direction from the centre meets the surface: the map is empty; try --center captured");
+    }
+    if (report.center_moved > 0) {
+        warn("the centre of the bounding box lies on the surface, where the inside cannot be told from the "
+             "outside: it was moved by " +
+             std::to_string(int(std::lround(100 * report.center_moved))) + " % of the radius");
     }
     if (report.center_on_surface) {
         warn("the centre lies on the surface, so depths near it are unreliable; try --center captured");
@@ -122,16 +126,22 @@ void add_warnings(Report& report, const Options& options) {
 } // namespace
 
 Result bake_model(const Model& model, const Options& options, const Progress& progress) {
+    if (options.baker == Baker::radial) return bake_with(cast_radial, model, options, progress);
+    const std::unique_ptr<GlContext> context = make_gl_context(options.gl);
+    const Caster orbit = [&](const CenteredModel& centered, const Grid& grid, const CastOptions& cast) {
+        return cast_orbit(*context, centered, grid, options.gl_naive, cast);
+    };
+    Result result = bake_with(orbit, model, options, progress);
+    result.report.gl = context->description();
+    return result;
+}
+
+Result bake_with(const Caster& cast, const Model& model, const Options& options, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
     if (model.triangles.empty())
         throw Error(ExitCode::invalid_data, "the model has no triangles: nothing to bake");
     Result result;
     Report& report = result.report;
-    std::unique_ptr<GlContext> context;
-    if (options.baker == Baker::orbit) {
-        context = make_gl_context(options.gl);
-        report.gl = context->description();
-    }
     tbb::task_arena arena(arena_concurrency(options.threads));
     arena.execute([&] {
         bool moved = false;
@@ -143,13 +153,23 @@ Result bake_model(const Model& model, const Options& options, const Progress& pr
                 "the object is flat, so the centre of its bounding box would see it edge-on: the "
                 "centre was moved behind it");
         }
-        const PartFrame frame = make_part_frame(model, center, options.frame == Frame::affine);
-        const CenteredModel centered = center_model(model, frame);
+        const auto place = [&](Vec3d at) {
+            return make_part_frame(model, at, options.frame == Frame::affine);
+        };
+        PartFrame frame = place(center);
+        CenteredModel centered = center_model(model, frame);
+        inspect_triangles(centered, report);
+        if (report.center_on_surface && options.center == Center::bounds) {
+            const double radius = frame.radius;
+            frame = place(center_off_surface(model, center));
+            centered = center_model(model, frame);
+            report.center_moved = length(frame.center - center) / radius;
+            inspect_triangles(centered, report);
+        }
         const Components components = find_components(model);
         report.triangles = model.triangles.size();
         report.components = components.count;
         report.open_edges = components.open_edges;
-        inspect_triangles(centered, report);
 
         const Grid color_grid = fine_grid(options.color_grid, options.samples);
         const bool shared = color_grid == options.grid;
@@ -162,7 +182,7 @@ Result bake_model(const Model& model, const Options& options, const Progress& pr
             })
                             : Progress{};
         };
-        Surfaces surfaces(context.get(), centered, components, options, report);
+        Surfaces surfaces(cast, centered, components, options, report);
         const SurfaceGrid shape = surfaces.cast(options.grid, between(0, split));
         const SurfaceGrid color = shared ? SurfaceGrid{} : surfaces.cast(color_grid, between(split, 1));
 

@@ -9,6 +9,7 @@
 #include "../mesh/model.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,7 +38,8 @@ struct Report {
     std::uint64_t thin_samples = 0;        // with a surface that bounds no solid, stored as a thin shell
     std::uint64_t truncated_samples = 0;   // with more intervals than layers
     bool center_on_surface = false;        // the centre is closer to the surface than 1e-4 R
-    bool center_inside = false;            // the centre is in the solid (winding number above 0.5)
+    bool center_inside = false;            // the centre is in the solid (intervals.h, solid_winding)
+    double center_moved = 0;               // how far it was moved off the surface, in units of R
     std::vector<LayerReport> layers;       // as written
     std::vector<std::string> warnings;     // full sentences
     std::string gl;                        // orbit: GlContext::description()
@@ -52,5 +54,12 @@ struct Result {
 // Bakes the whole model into one part. Throws Error (unsupported: no GL for the orbit; invalid_data: nothing
 // to bake, such as a model of zero size; internal) and Cancelled. Same model and options, same bytes.
 Result bake_model(const Model& model, const Options& options, const Progress& progress = {});
+
+// Finds the crossings of all samples, as cast_radial does.
+using Caster = std::function<CrossingGrid(const CenteredModel&, const Grid&, const CastOptions&)>;
+
+// bake_model with crossings from `cast` instead of one of the two bakers: for checking them.
+Result bake_with(const Caster& cast, const Model& model, const Options& options,
+                 const Progress& progress = {});
 
 } // namespace spa::bake

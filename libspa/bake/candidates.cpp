@@ -61,15 +61,53 @@ struct Bounds {
     }
 };
 
+// Rounding without the library calls that std::ceil and std::floor are on x86-64 before SSE 4.1.
+std::int64_t ceil_int(double v) {
+    const auto i = std::int64_t(v);
+    return i + (v > double(i) ? 1 : 0);
+}
+std::int64_t floor_int(double v) {
+    const auto i = std::int64_t(v);
+    return i - (v < double(i) ? 1 : 0);
+}
+
 // The samples in a padded box, cut to [0, width) x [0, height); false if there are none.
 bool to_rect(const Bounds& box, double pad, const Grid& grid, SampleRect& rect) {
-    const double x0 = std::max(0.0, std::ceil(box.x0 - pad));
-    const double y0 = std::max(0.0, std::ceil(box.y0 - pad));
-    const double x1 = std::min(double(grid.width) - 1, std::floor(box.x1 + pad));
-    const double y1 = std::min(double(grid.height) - 1, std::floor(box.y1 + pad));
-    if (x0 > x1 || y0 > y1) return false;
+    const auto x0 = std::max<std::int64_t>(0, ceil_int(box.x0 - pad));
+    const auto x1 = std::min<std::int64_t>(std::int64_t(grid.width) - 1, floor_int(box.x1 + pad));
+    if (x0 > x1) return false;
+    const auto y0 = std::max<std::int64_t>(0, ceil_int(box.y0 - pad));
+    const auto y1 = std::min<std::int64_t>(std::int64_t(grid.height) - 1, floor_int(box.y1 + pad));
+    if (y0 > y1) return false;
     rect = {std::uint32_t(x0), std::uint32_t(y0), std::uint32_t(x1), std::uint32_t(y1)};
     return true;
+}
+
+// atan(x) for 0 <= x <= 1 (Abramowitz & Stegun, 4.4.49).
+constexpr double atan_error = 1e-5;
+double fast_atan(double x) {
+    const double q = x * x;
+    return x * (0.9998660 + q * (-0.3302995 + q * (0.1801410 + q * (-0.0851330 + q * 0.0208351))));
+}
+
+// Within atan_error of std::atan2. (0, 0) gives 0.
+double fast_atan2(double y, double x) {
+    const double ax = std::abs(x);
+    const double ay = std::abs(y);
+    const double most = std::max(ax, ay);
+    const double octant = fast_atan(most > 0 ? std::min(ax, ay) / most : 0);
+    const double quadrant = ay > ax ? std::numbers::pi / 2 - octant : octant;
+    const double half = x < 0 ? std::numbers::pi - quadrant : quadrant;
+    return y < 0 ? -half : half;
+}
+
+// spa::position_of, within atan_error where the map is lat-long.
+Vec2d roughly_position_of(const Grid& grid, Vec3d p) {
+    if (grid.mapping == Mapping::octahedral) return position_of(grid, p);
+    const double phi = fast_atan2(p.x, p.z);
+    const double theta = fast_atan2(std::sqrt(p.x * p.x + p.z * p.z), p.y);
+    return {(phi / (2 * std::numbers::pi) + 0.5) * grid.width - 0.5,
+            theta / std::numbers::pi * grid.height - 0.5};
 }
 
 } // namespace
@@ -77,13 +115,16 @@ bool to_rect(const Bounds& box, double pad, const Grid& grid, SampleRect& rect) 
 Candidates::Candidates(const Grid& grid, const std::vector<Vec3f>& positions)
     : grid_(grid), positions_(&positions), mapped_(positions.size()),
       pad_(1e-3 + 2.5e-7 * std::max(grid.width, grid.height)) {
+    // An angle is half a turn over the height, a whole one over the width.
+    if (grid.mapping == Mapping::latlong)
+        pad_ += atan_error / std::numbers::pi * std::max(0.5 * grid.width, 1.0 * grid.height);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), 4096), [&](const auto& range) {
         for (std::size_t v = range.begin(); v < range.end(); ++v) {
             // Adding 0 turns -0 into 0: the octant and the side of the fold must not depend on the sign of
             // zero.
             const Vec3d p = to_double(positions[v]) + Vec3d{};
             const bool polar = grid_.mapping == Mapping::latlong && p.x == 0 && p.z == 0;
-            const Vec2d xy = position_of(grid_, p);
+            const Vec2d xy = roughly_position_of(grid_, p);
             mapped_[v] = {float(xy.x), float(xy.y), p == Vec3d{} || polar ? irregular : octant_of(p)};
         }
     });
@@ -136,8 +177,7 @@ std::size_t Candidates::find_clipped(const Triangle& triangle, std::span<SampleR
 }
 
 // Longitudes of a spherical triangle without a pole span less than half a turn, and are extreme at its
-// corners. Latitudes may bulge past the corners, by less than half the longest edge; a triangle around a pole
-// reaches it, and no corner is farther from it than the longest edge.
+// corners.
 std::size_t Candidates::find_latlong(const Triangle& triangle, std::span<SampleRect, max_rects> rects) const {
     const Mapped& a = mapped_[triangle.vertex[0]];
     const Mapped& b = mapped_[triangle.vertex[1]];
@@ -152,29 +192,17 @@ std::size_t Candidates::find_latlong(const Triangle& triangle, std::span<SampleR
         low = std::min(low, d);
         high = std::max(high, d);
     }
-    const bool full = high - low >= width / 2 - pad_ || a.octant == irregular || b.octant == irregular ||
+    const bool full = high - low >= width / 2 - 2 * pad_ || a.octant == irregular || b.octant == irregular ||
                       c.octant == irregular;
-    const double first = std::ceil(a.x + low - pad_);
-    const double last = std::floor(a.x + high + pad_);
+    const auto first = double(ceil_int(a.x + low - pad_));
+    const auto last = double(floor_int(a.x + high + pad_));
     if (!full && first > last) return 0;
 
-    double longest = 0; // an upper bound of the longest edge as an angle
-    for (unsigned k = 0; k < 3; ++k) {
-        const Vec3d p = to_double((*positions_)[triangle.vertex[k]]);
-        const Vec3d q = to_double((*positions_)[triangle.vertex[(k + 1) % 3]]);
-        const Vec3d d = q - p;
-        const double far2 = std::max(dot(p, p), dot(q, q));
-        // Law of sines: sin(angle) <= |q - p| / max(|p|, |q|).
-        const double angle = dot(p, q) > 0 && dot(d, d) < far2
-                                 ? std::numbers::pi / 2 * std::sqrt(dot(d, d) / far2)
-                                 : std::numbers::pi;
-        longest = std::max(longest, angle);
-    }
-    const double rows = longest / std::numbers::pi * grid_.height * (full ? 1.0 : 0.5);
     Bounds box;
     for (const Mapped* m : {&a, &b, &c}) box.extend(m->x, m->y);
-    box.y0 -= rows + pad_;
-    box.y1 += rows + pad_;
+    const double rows = bulge(triangle, full, (high - low + 2 * pad_) / width * std::numbers::pi) + pad_;
+    box.y0 -= rows;
+    box.y1 += rows;
     if (full || last - first + 1 >= width) {
         box.x0 = 0;
         box.x1 = width - 1;
@@ -187,6 +215,30 @@ std::size_t Candidates::find_latlong(const Triangle& triangle, std::span<SampleR
         if (to_rect(box, 0, grid_, rects[count])) ++count;
     }
     return count;
+}
+
+// How many rows a triangle on the lat-long map may reach past its corners. An edge does so where its great
+// circle comes closest to the pole within the edge. Then the corner nearer to that point has at most half of
+// the edge's longitudes to it, h, and by tan(latitude of the corner) = tan(latitude of the point) cos(their
+// longitudes' difference) the bulge is at most (1/cos h - 1)/2 <= 0.32 h^2 for h <= 1/2.
+double Candidates::bulge(const Triangle& triangle, bool full, double half_longitudes) const {
+    if (!full && half_longitudes <= 0.5)
+        return 0.32 * half_longitudes * half_longitudes / std::numbers::pi * grid_.height;
+    // Wide ones: less than half the longest edge; around a pole all of it, because the triangle reaches the
+    // pole, and no corner is farther from it than the longest edge.
+    double longest = 0; // an upper bound of the longest edge as an angle
+    for (unsigned k = 0; k < 3; ++k) {
+        const Vec3d p = to_double((*positions_)[triangle.vertex[k]]);
+        const Vec3d q = to_double((*positions_)[triangle.vertex[(k + 1) % 3]]);
+        const Vec3d d = q - p;
+        const double far2 = std::max(dot(p, p), dot(q, q));
+        // Law of sines: sin(angle) <= |q - p| / max(|p|, |q|).
+        const double angle = dot(p, q) > 0 && dot(d, d) < far2
+                                 ? std::numbers::pi / 2 * std::sqrt(dot(d, d) / far2)
+                                 : std::numbers::pi;
+        longest = std::max(longest, angle);
+    }
+    return longest / std::numbers::pi * grid_.height * (full ? 1.0 : 0.5);
 }
 
 } // namespace spa::bake

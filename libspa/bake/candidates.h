@@ -34,11 +34,12 @@ private:
     std::size_t find_octahedral(const Triangle& triangle, std::span<SampleRect, max_rects> rects) const;
     std::size_t find_clipped(const Triangle& triangle, std::span<SampleRect, max_rects> rects) const;
     std::size_t find_latlong(const Triangle& triangle, std::span<SampleRect, max_rects> rects) const;
+    double bulge(const Triangle& triangle, bool full, double half_longitudes) const;
 
     Grid grid_;
     const std::vector<Vec3f>* positions_;
     std::vector<Mapped> mapped_;
-    double pad_; // covers the rounding of positions to float
+    double pad_; // covers the rounding of positions to float, and their error
 };
 
 } // namespace spa::bake

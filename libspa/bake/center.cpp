@@ -3,11 +3,14 @@
 
 #include "radial.h"
 
+#include "../mesh/closest_point.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace spa::bake {
 namespace {
@@ -38,6 +41,33 @@ Surface measure_surface(const Model& model) {
     return surface;
 }
 
+template <class Visit>
+void each_distance(const Model& model, Vec3d from, const Visit& visit) {
+    for (const Triangle& triangle : model.triangles) {
+        const auto corner = [&](unsigned k) { return to_double(model.positions[triangle.vertex[k]]); };
+        visit(triangle, length(closest_point_on_triangle(from, corner(0), corner(1), corner(2)) - from));
+    }
+}
+
+double distance_to_surface(const Model& model, Vec3d from) {
+    double least = std::numeric_limits<double>::infinity();
+    each_distance(model, from, [&](const Triangle&, double d) { least = std::min(least, d); });
+    return least;
+}
+
+// Of the triangles around a point of the surface. Where they cancel, as on a double sheet: of the first.
+Vec3d normal_around(const Model& model, Vec3d point, double radius) {
+    Vec3d sum;
+    Vec3d first;
+    each_distance(model, point, [&](const Triangle& triangle, double d) {
+        if (!(d < radius)) return;
+        const Vec3d n = normalize(plane_normal(model, triangle));
+        if (first == Vec3d{}) first = n;
+        sum = sum + n;
+    });
+    return length(sum) > 0.1 ? normalize(sum) : first;
+}
+
 } // namespace
 
 CenteredModel center_model(const Model& model, const PartFrame& part) {
@@ -62,6 +92,23 @@ CenteredModel center_model(const Model& model, const PartFrame& part) {
             }
         });
     return centered;
+}
+
+Vec3d center_off_surface(const Model& model, Vec3d center) {
+    double radius = 0;
+    for (const Triangle& triangle : model.triangles) {
+        for (const std::uint32_t v : triangle.vertex) {
+            radius = std::max(radius, length(to_double(model.positions[v]) - center));
+        }
+    }
+    const Vec3d normal = normal_around(model, center, radius / 1024);
+    for (const double step : {radius / 16, radius / 32, radius / 64}) {
+        for (const double side : {-step, step}) {
+            const Vec3d moved = center + normal * side;
+            if (distance_to_surface(model, moved) >= step / 4) return moved;
+        }
+    }
+    return center;
 }
 
 double captured_area(const Model& model, Vec3d center) {

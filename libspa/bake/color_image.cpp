@@ -6,6 +6,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace spa::bake {
@@ -38,6 +39,23 @@ void copy_identified(std::vector<Rgba8>& image, const Grid& grid) {
         copy(i, n);
         copy(0, i);
         copy(n, i);
+    }
+}
+
+// Marks samples next to one of ring[..] != 0, and those at the border of the image, whose neighbours lie over
+// the seam: a few more than those that dilation can reach in one pass, and far fewer than all.
+void mark_near(const std::vector<std::uint8_t>& ring, const Grid& grid, std::vector<std::uint8_t>& near) {
+    std::fill(near.begin(), near.end(), std::uint8_t(1));
+    const std::size_t width = grid.width;
+    for (std::size_t y = 1; y + 1 < grid.height; ++y) {
+        const std::uint8_t* const above = ring.data() + (y - 1) * width;
+        const std::uint8_t* const here = above + width;
+        const std::uint8_t* const below = here + width;
+        std::uint8_t* const out = near.data() + y * width;
+        for (std::size_t x = 1; x + 1 < width; ++x) {
+            out[x] = std::uint8_t(above[x - 1] | above[x] | above[x + 1] | here[x - 1] | here[x + 1] |
+                                  below[x - 1] | below[x] | below[x + 1]);
+        }
     }
 }
 
@@ -95,11 +113,13 @@ void dilate_color(std::vector<Rgba8>& image, const Grid& grid, unsigned rings) {
     // 0 = no colour yet, otherwise 1 + the ring that gave it.
     std::vector<std::uint8_t> ring(image.size());
     for (std::size_t i = 0; i < image.size(); ++i) ring[i] = image[i][3] != 0 ? 1 : 0;
+    std::vector<std::uint8_t> near(image.size());
     for (unsigned pass = 1; pass <= rings; ++pass) {
+        mark_near(ring, grid, near);
         for (std::uint32_t y = 0; y < grid.height; ++y) {
             for (std::uint32_t x = 0; x < grid.width; ++x) {
                 const std::size_t index = std::size_t(y) * grid.width + x;
-                if (ring[index] != 0) continue;
+                if (ring[index] != 0 || near[index] == 0) continue;
                 std::array<unsigned, 3> sum{};
                 unsigned count = 0;
                 for (std::int64_t dy = -1; dy <= 1; ++dy) {

@@ -125,7 +125,7 @@ Orientation orient_components(const CrossingGrid& crossings, const Components& c
     for (std::uint32_t c = 0; c < components.count; ++c) {
         // A double sheet has no volume but rounding: it stays as it is wound.
         result.flipped[c] = volume[c] < -1e-6 * magnitude[c];
-        result.solid[c] = (result.flipped[c] ? -winding[c] : winding[c]) > 0.5;
+        result.solid[c] = (result.flipped[c] ? -winding[c] : winding[c]) > solid_winding;
     }
     return result;
 }

@@ -26,10 +26,17 @@ struct SurfaceGrid {
     std::vector<std::vector<SurfacePoint>> surfaces;
 };
 
+// From where on a piece counts as solid around the centre. A closed piece has winding number 0 or 1 there, an
+// open one the share of directions that it covers, which for what people model is often a simple fraction:
+// a half seen from its rim, n of 12 or 20 faces of a regular polyhedron. The threshold lies between the two
+// of these that are nearest to one half, 10/20 and 11/20, so that the error of the sampled sum (some 1e-3)
+// decides for none of them.
+constexpr double solid_winding = 0.525;
+
 // How the pieces of a model bound solid, estimated from all crossings over a grid.
 struct Orientation {
     std::vector<bool> flipped; // per component: its faces point inwards
-    std::vector<bool> solid;   // per component: its winding number at the centre is above 1/2
+    std::vector<bool> solid;   // per component: its winding number at the centre is above solid_winding
     std::vector<bool> seen;    // per component: at least one crossing
 };
 

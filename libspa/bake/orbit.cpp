@@ -4,6 +4,7 @@
 #include "orbit_batches.h"
 #include "orbit_naive.h"
 #include "orbit_tiles.h"
+#include "order_crossings.h"
 #include <orbit_shaders.h>
 
 #include <algorithm>
@@ -107,8 +108,7 @@ private:
         for (std::uint32_t y = y0; y < y0 + rows; ++y) {
             for (std::uint32_t x = 0; x < grid_.width; ++x) {
                 cameras.push_back(make_camera(grid_, {x, y}));
-                const auto& u = cameras.back().direction;
-                band.directions.push_back(to_float(Vec3d{u[0], u[1], u[2]}));
+                band.directions.push_back(to_float(normalize(sample_direction(grid_, {x, y}))));
                 // Identified samples get copies, so that they are equal to the bit.
                 const bool own = canonical(grid_, {x, y}) == TexelIndex{x, y};
                 band.wanted.push_back(own ? want_front | want_back : 0);
@@ -173,30 +173,6 @@ private:
     std::vector<Fragment> fragments_;
     double share_begin_ = 0, share_size_ = 1;
 };
-
-// Puts the crossings of one sample in order and makes those that are closer than merge_distance one
-// (crossings.h); returns the new end.
-Crossing* order_crossings(Crossing* begin, Crossing* end) {
-    std::sort(begin, end, [](const Crossing& a, const Crossing& b) {
-        if (a.radius != b.radius) return a.radius > b.radius;
-        if (a.front_facing != b.front_facing) return a.front_facing;
-        return a.triangle < b.triangle;
-    });
-    Crossing* out = begin;
-    std::array<Crossing*, 2> last{};      // of each facing
-    std::array<float, 2> outermost{0, 0}; // radius of the first that became part of it
-    for (Crossing* in = begin; in != end; ++in) {
-        const std::size_t facing = in->front_facing ? 0 : 1;
-        if (last[facing] && outermost[facing] - in->radius < merge_distance) {
-            if (in->triangle < last[facing]->triangle) *last[facing] = *in;
-            continue;
-        }
-        outermost[facing] = in->radius;
-        *out = *in;
-        last[facing] = out++;
-    }
-    return out;
-}
 
 // Sorts fragments by sample, outermost first, and gives identified samples copies.
 CrossingGrid to_grid(const Grid& grid, const std::vector<Fragment>& fragments) {

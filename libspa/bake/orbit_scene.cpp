@@ -46,13 +46,15 @@ GlObject upload(const GlFunctions& gl, const Texture& texture, std::size_t first
 } // namespace
 
 GpuCamera make_camera(const Grid& grid, TexelIndex texel) {
-    const Vec3d u = normalize(sample_direction(grid, texel));
+    const Vec3d g = sample_direction(grid, texel);
+    const Vec3d u = normalize(g);
     // Along the poles' axis any horizontal direction will do.
     Vec3d right = normalize(Vec3d{u.z, 0, -u.x});
     if (right == Vec3d{}) right = {1, 0, 0};
     const Vec3d up = cross(u, right);
     GpuCamera camera;
-    camera.direction = {u.x, u.y, u.z};
+    camera.ray = {g.x, g.y, g.z};
+    camera.ray_length = length(g);
     camera.right = to_floats(right);
     camera.up = to_floats(up);
     camera.solid_angle = float(solid_angle(grid, texel));

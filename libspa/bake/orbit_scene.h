@@ -13,13 +13,14 @@
 namespace spa::bake {
 
 struct GpuCamera {
-    std::array<double, 3> direction{};
+    std::array<double, 3> ray{};
+    double ray_length = 0;
     std::array<float, 3> right{};
     std::array<float, 3> up{};
     float solid_angle = 0;
     float padding = 0;
 };
-static_assert(sizeof(GpuCamera) == 56);
+static_assert(sizeof(GpuCamera) == 64);
 
 struct GpuCorners {
     std::array<float, 9> position{};

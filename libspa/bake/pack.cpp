@@ -2,6 +2,7 @@
 #include "pack.h"
 
 #include "color_image.h"
+#include "sample_directions.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -70,11 +71,12 @@ void pack_layers(const SurfaceGrid& shape, const SurfaceGrid& color, const Optio
 }
 
 double coverage(const std::vector<SurfacePoint>& surface, const Grid& grid) {
+    const SampleDirections directions(grid);
     double covered = 0;
     double total = 0;
     for (std::uint32_t y = 0; y < grid.height; ++y) {
         for (std::uint32_t x = 0; x < grid.width; ++x) {
-            const double angle = solid_angle(grid, {x, y});
+            const double angle = directions.solid_angle_of({x, y});
             total += angle;
             if (surface[std::size_t(y) * grid.width + x].radius > 0) covered += angle;
         }

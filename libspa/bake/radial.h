@@ -12,4 +12,14 @@ namespace spa::bake {
 // Source: ../../docs/baking.md, "Radial".
 CrossingGrid cast_radial(const CenteredModel& model, const Grid& grid, const CastOptions& options);
 
+struct OutermostHit {
+    float radius = 0; // r/R; 0: the ray meets nothing
+    std::uint32_t triangle = 0;
+};
+
+// The first half of cast_radial with outermost_only, which is always set: where each sample's outermost
+// crossing is, one entry a sample, without normals and colours.
+std::vector<OutermostHit> find_outermost(const CenteredModel& model, const Grid& grid,
+                                         const CastOptions& options);
+
 } // namespace spa::bake

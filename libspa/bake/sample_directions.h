@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directions of a grid's samples from tables: the same bits as spa::sample_direction, without its divisions
-// and trigonometry.
+// Directions and solid angles of a grid's samples from tables: the same bits as spa::sample_direction and
+// spa::solid_angle, without their divisions and trigonometry.
 #pragma once
 
 #include "../core/direction_map.h"
@@ -13,7 +13,8 @@ namespace spa::bake {
 
 class SampleDirections {
 public:
-    explicit SampleDirections(const Grid& grid) : octahedral_(grid.mapping == Mapping::octahedral) {
+    explicit SampleDirections(const Grid& grid)
+        : grid_(grid), octahedral_(grid.mapping == Mapping::octahedral) {
         column_.reserve(grid.width);
         row_.reserve(grid.height);
         if (octahedral_) {
@@ -31,6 +32,7 @@ public:
             for (std::uint32_t y = 0; y < grid.height; ++y) {
                 const double theta = pi * (double(y) + 0.5) / grid.height;
                 row_.push_back({std::sin(theta), std::cos(theta)});
+                row_angle_.push_back(solid_angle(grid, {0, y}));
             }
         }
     }
@@ -46,10 +48,16 @@ public:
         return {std::copysign(1 - std::abs(t), s) + 0.0, std::copysign(1 - std::abs(s), t) + 0.0, z};
     }
 
+    [[nodiscard]] double solid_angle_of(TexelIndex at) const {
+        return octahedral_ ? solid_angle(grid_, at) : row_angle_[at.y];
+    }
+
 private:
+    Grid grid_;
     bool octahedral_;
     // octahedral: x = s or t; latlong: sine and cosine of phi or theta.
     std::vector<Vec2d> column_, row_;
+    std::vector<double> row_angle_; // latlong: the same for all samples of a row
 };
 
 } // namespace spa::bake

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shading.h"
 
-#include "../core/element_format.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +9,7 @@ namespace {
 
 // Texel index under a wrap mode, as OpenGL 4.5 table 8.20 defines it.
 std::uint32_t wrap_texel(Wrap wrap, std::int64_t i, std::int64_t size) {
+    if (i >= 0 && i < size) return std::uint32_t(i); // spares the divisions
     switch (wrap) {
     case Wrap::repeat: i = ((i % size) + size) % size; break;
     case Wrap::mirrored_repeat: {
@@ -139,7 +138,7 @@ SurfaceColor Shader::color(std::uint32_t triangle, Vec3d barycentric, double foo
         rgba = multiply(rgba, sample(material, triangle, barycentric, footprint));
     }
     SurfaceColor result;
-    result.srgba = {linear_to_srgb(rgba.x), linear_to_srgb(rgba.y), linear_to_srgb(rgba.z), 255};
+    result.srgba = {srgb_(rgba.x), srgb_(rgba.y), srgb_(rgba.z), 255};
     if (material.alpha_mode == AlphaMode::mask) {
         result.visible = rgba.w >= material.alpha_cutoff;
     } else if (material.alpha_mode == AlphaMode::blend) {

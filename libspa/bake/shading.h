@@ -4,6 +4,8 @@
 
 #include "crossings.h"
 
+#include "../core/element_format.h"
+
 #include <array>
 
 namespace spa::bake {
@@ -35,6 +37,7 @@ private:
 
     const CenteredModel* centered_;
     std::array<float, 256> linear_{}; // sRGB code -> linear
+    SrgbEncoder srgb_;
 };
 
 } // namespace spa::bake

@@ -157,4 +157,22 @@ std::uint8_t linear_to_srgb(float linear) {
     return std::uint8_t(std::lround(s * 255));
 }
 
+SrgbEncoder::SrgbEncoder() {
+    for (unsigned code = 1; code < 256; ++code) {
+        // The inverse of the transfer function is off by a few ulp at most.
+        const double s = (code - 0.5) / 255;
+        auto least = float(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+        while (linear_to_srgb(least) >= code) least = std::nextafter(least, 0.0F);
+        while (linear_to_srgb(least) < code) least = std::nextafter(least, 1.0F);
+        least_[code] = least;
+    }
+    least_[256] = std::numeric_limits<float>::infinity();
+    unsigned code = 0;
+    for (std::size_t i = 0; i < pieces; ++i) {
+        const auto first = std::bit_cast<float>(bits_of_lowest + std::uint32_t(i << shift));
+        while (first >= least_[code + 1]) ++code;
+        code_[i] = std::uint8_t(code);
+    }
+}
+
 } // namespace spa

@@ -6,6 +6,7 @@
 #include "vector.h"
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -60,5 +61,27 @@ Vec3f decode_normal(ElementFormat format, const std::byte* in);
 // sRGB transfer (IEC 61966-2-1). Linear values outside [0,1] are clamped; NaN gives 0.
 float srgb_to_linear(std::uint8_t code);
 std::uint8_t linear_to_srgb(float linear);
+
+// linear_to_srgb from a table, for many of them. Immutable.
+class SrgbEncoder {
+public:
+    SrgbEncoder();
+    std::uint8_t operator()(float linear) const {
+        if (!(linear > lowest)) return 0;
+        if (linear >= 1) return 255;
+        const unsigned code = code_[(std::bit_cast<std::uint32_t>(linear) - bits_of_lowest) >> shift];
+        return std::uint8_t(linear < least_[code + 1] ? code : code + 1);
+    }
+
+private:
+    // The float patterns of [lowest, 1), cut into pieces that are so short (one in 256 of their value) that
+    // none holds more than one step from code to code.
+    static constexpr float lowest = 0x1p-13F; // code 0
+    static constexpr std::uint32_t bits_of_lowest = std::bit_cast<std::uint32_t>(lowest);
+    static constexpr unsigned shift = 15;
+    static constexpr std::size_t pieces = (std::bit_cast<std::uint32_t>(1.0F) - bits_of_lowest) >> shift;
+    std::array<std::uint8_t, pieces> code_{}; // of the first value of a piece
+    std::array<float, 257> least_{};          // the smallest value of a code; infinity for code 256
+};
 
 } // namespace spa

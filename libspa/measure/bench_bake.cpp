@@ -80,9 +80,13 @@ bake::CrossingGrid shade(const bake::SampleRays& rays, const std::vector<bake::O
     for (std::size_t s = 0; s < hits.size(); ++s)
         result.first[s + 1] = result.first[s] + (hits[s].radius > 0 ? 1 : 0);
     result.crossings.resize(result.first.back());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, hits.size(), 1024), [&](const auto& range) {
-        for (std::size_t s = range.begin(); s < range.end(); ++s) {
-            if (hits[s].radius > 0) result.crossings[result.first[s]] = rays.shade(s, hits[s].triangle);
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, rays.grid.height), [&](const auto& rows) {
+        for (std::uint32_t y = rows.begin(); y < rows.end(); ++y) {
+            for (std::uint32_t x = 0; x < rays.grid.width; ++x) {
+                const std::size_t s = std::size_t(y) * rays.grid.width + x;
+                if (hits[s].radius > 0)
+                    result.crossings[result.first[s]] = rays.shade({x, y}, hits[s].triangle);
+            }
         }
     });
     return result;

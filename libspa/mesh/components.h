@@ -18,7 +18,7 @@ struct Components {
 };
 
 // Vertices at the same position (weld.h) are one; triangles that share a vertex are connected.
-// O(n log n) time, O(n) memory.
+// O(n log n) time, O(n) memory. Parallel in the caller's arena; the result does not depend on it.
 Components find_components(const Model& model);
 
 } // namespace spa

@@ -3,9 +3,15 @@
 
 #include "../core/error.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -23,18 +29,56 @@ struct Interval {
     }
 };
 
-template <class Visit>
-void each_corner(const Model& model, Visit&& visit) {
-    for (const Triangle& triangle : model.triangles) {
-        for (const std::uint32_t v : triangle.vertex) visit(to_double(model.positions[v]));
+// The vertices that triangles use.
+class UsedVertices {
+public:
+    explicit UsedVertices(const Model& model)
+        : positions_(model.positions), used_(model.positions.size(), 0) {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, model.triangles.size(), grain),
+                          [&](const auto& range) {
+                              for (std::size_t t = range.begin(); t < range.end(); ++t) {
+                                  for (const std::uint32_t v : model.triangles[t].vertex)
+                                      std::atomic_ref(used_[v]).store(1, std::memory_order_relaxed);
+                              }
+                          });
     }
-}
+    // visit(value, p) for every one, on copies of `start` that join(a, b) brings together. The result must
+    // not depend on the order of visits.
+    template <class T, class Visit, class Join>
+    [[nodiscard]] T reduce(T start, Visit&& visit, Join&& join) const {
+        return tbb::parallel_reduce(
+            tbb::blocked_range<std::size_t>(0, positions_.size(), grain), start,
+            [&](const auto& range, T value) {
+                for (std::size_t v = range.begin(); v < range.end(); ++v) {
+                    if (used_[v] != 0) visit(value, to_double(positions_[v]));
+                }
+                return value;
+            },
+            join);
+    }
 
-Axes box_along(const Model& model, const std::array<Vec3d, 3>& axis) {
-    std::array<Interval, 3> range;
-    each_corner(model, [&](Vec3d p) {
-        for (unsigned k = 0; k < 3; ++k) range[k].extend(dot(axis[k], p));
-    });
+private:
+    static constexpr std::size_t grain = 16384;
+    const std::vector<Vec3f>& positions_;
+    std::vector<std::uint8_t> used_;
+};
+
+constexpr std::array<Vec3d, 3> coordinate_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+Axes box_along(const UsedVertices& vertices, const std::array<Vec3d, 3>& axis) {
+    using Ranges = std::array<Interval, 3>;
+    const Ranges range = vertices.reduce(
+        Ranges{},
+        [&](Ranges& r, Vec3d p) {
+            for (unsigned k = 0; k < 3; ++k) r[k].extend(dot(axis[k], p));
+        },
+        [](Ranges a, const Ranges& b) {
+            for (unsigned k = 0; k < 3; ++k) {
+                a[k].low = std::min(a[k].low, b[k].low);
+                a[k].high = std::max(a[k].high, b[k].high);
+            }
+            return a;
+        });
     std::array<unsigned, 3> order{0, 1, 2};
     const auto half = [&](unsigned k) { return (range[k].high - range[k].low) / 2; };
     std::stable_sort(order.begin(), order.end(), [&](unsigned a, unsigned b) { return half(a) > half(b); });
@@ -83,30 +127,64 @@ std::array<Vec3d, 3> eigenvectors(std::array<std::array<double, 3>, 3> a) {
     return axes;
 }
 
-// Area-weighted covariance of the triangles' centroids about `origin`: enough to find the axes.
-std::array<Vec3d, 3> principal_axes(const Model& model, Vec3d origin) {
-    std::array<std::array<double, 3>, 3> m{};
-    Vec3d mean;
-    double total = 0;
-    for (const Triangle& triangle : model.triangles) {
+struct Moments {
+    std::array<std::array<double, 3>, 3> second{};
+    Vec3d first;
+    double area = 0;
+
+    void add(const Model& model, const Triangle& triangle, Vec3d origin) {
         const Vec3d a = to_double(model.positions[triangle.vertex[0]]) - origin;
         const Vec3d b = to_double(model.positions[triangle.vertex[1]]) - origin;
         const Vec3d c = to_double(model.positions[triangle.vertex[2]]) - origin;
-        const double area = length(cross(b - a, c - a));
+        const double weight = length(cross(b - a, c - a));
         const Vec3d centroid = (a + b + c) * (1.0 / 3);
         const std::array<double, 3> p{centroid.x, centroid.y, centroid.z};
         for (unsigned i = 0; i < 3; ++i) {
-            for (unsigned j = 0; j < 3; ++j) m[i][j] += area * p[i] * p[j];
+            for (unsigned j = 0; j < 3; ++j) second[i][j] += weight * p[i] * p[j];
         }
-        mean = mean + centroid * area;
-        total += area;
+        first = first + centroid * weight;
+        area += weight;
     }
-    if (!(total > 0)) return {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
-    const std::array<double, 3> c{mean.x, mean.y, mean.z};
+    [[nodiscard]] Moments joined(const Moments& other) const {
+        Moments sum = *this;
+        for (unsigned i = 0; i < 3; ++i) {
+            for (unsigned j = 0; j < 3; ++j) sum.second[i][j] += other.second[i][j];
+        }
+        sum.first = sum.first + other.first;
+        sum.area += other.area;
+        return sum;
+    }
+};
+
+// Area-weighted covariance of the triangles' centroids about `origin`: enough to find the axes.
+std::array<Vec3d, 3> principal_axes(const Model& model, Vec3d origin) {
+    // Deterministic: the sums are split alike for any number of threads.
+    const Moments sum = tbb::parallel_deterministic_reduce(
+        tbb::blocked_range<std::size_t>(0, model.triangles.size(), 65536), Moments{},
+        [&](const auto& range, Moments moments) {
+            for (std::size_t t = range.begin(); t < range.end(); ++t)
+                moments.add(model, model.triangles[t], origin);
+            return moments;
+        },
+        [](const Moments& a, const Moments& b) { return a.joined(b); });
+    if (!(sum.area > 0)) return coordinate_axes;
+    std::array<std::array<double, 3>, 3> m{};
+    const std::array<double, 3> c{sum.first.x, sum.first.y, sum.first.z};
     for (unsigned i = 0; i < 3; ++i) {
-        for (unsigned j = 0; j < 3; ++j) m[i][j] = m[i][j] / total - c[i] * c[j] / (total * total);
+        for (unsigned j = 0; j < 3; ++j)
+            m[i][j] = sum.second[i][j] / sum.area - c[i] * c[j] / (sum.area * sum.area);
     }
     return eigenvectors(m);
+}
+
+// The smaller box, given the one along the coordinate axes.
+Axes oriented_bounds(const Model& model, const UsedVertices& vertices, const Axes& aligned) {
+    const Axes principal = box_along(vertices, principal_axes(model, aligned.center));
+    // The thinnest extent gets a floor, or every flat box would have volume 0.
+    const auto volume = [&](const Axes& box) {
+        return box.extent[0] * box.extent[1] * (box.extent[2] + 1e-6 * aligned.extent[0]);
+    };
+    return volume(principal) < 0.95 * volume(aligned) ? principal : aligned;
 }
 
 bool is_flat(const Axes& box) { return box.extent[2] < flat_ratio * box.extent[0]; }
@@ -125,18 +203,15 @@ Vec3d mean_normal(const Model& model) {
 } // namespace
 
 Axes oriented_bounds(const Model& model) {
-    const Axes aligned = box_along(model, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-    const Axes principal = box_along(model, principal_axes(model, aligned.center));
-    // The thinnest extent gets a floor, or every flat box would have volume 0.
-    const auto volume = [&](const Axes& box) {
-        return box.extent[0] * box.extent[1] * (box.extent[2] + 1e-6 * aligned.extent[0]);
-    };
-    return volume(principal) < 0.95 * volume(aligned) ? principal : aligned;
+    const UsedVertices vertices(model);
+    return oriented_bounds(model, vertices, box_along(vertices, coordinate_axes));
 }
 
 Vec3d bounds_center(const Model& model, bool& moved_off_surface) {
-    const Vec3d center = box_along(model, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}).center;
-    const Axes box = oriented_bounds(model);
+    const UsedVertices vertices(model);
+    const Axes aligned = box_along(vertices, coordinate_axes);
+    const Vec3d center = aligned.center;
+    const Axes box = oriented_bounds(model, vertices, aligned);
     moved_off_surface = is_flat(box);
     if (!moved_off_surface) return center;
     const double side = dot(mean_normal(model), box.axis[2]) < 0 ? 1.0 : -1.0;
@@ -158,11 +233,13 @@ PartFrame make_part_frame(const Model& model, Vec3d center, bool affine) {
         }
     }
     const Mat3 to_frame = inverse(part.frame);
-    double radius2 = 0;
-    each_corner(model, [&](Vec3d p) {
-        const Vec3d q = to_frame * (p - center);
-        radius2 = std::max(radius2, dot(q, q));
-    });
+    const double radius2 = UsedVertices(model).reduce(
+        0.0,
+        [&](double& farthest, Vec3d p) {
+            const Vec3d q = to_frame * (p - center);
+            farthest = std::max(farthest, dot(q, q));
+        },
+        [](double a, double b) { return std::max(a, b); });
     // The farthest vertex stays inside after rounding to float.
     part.radius = std::sqrt(radius2) * (1 + 1e-7);
     if (!(part.radius > 0) || !std::isfinite(part.radius)) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the sphere of a part stands: its centre, its frame and its radius.
+// Where the sphere of a part stands: its centre, its frame and its radius. Everything is parallel in the
+// caller's arena; results do not depend on it.
 #pragma once
 
 #include "model.h"

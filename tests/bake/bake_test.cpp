@@ -3,6 +3,7 @@
 #include "../../libspa/bake/bake.h"
 #include "../../libspa/bake/center.h"
 #include "../../libspa/core/error.h"
+#include "../../libspa/mesh/closest_point.h"
 #include "../support/shapes.h"
 
 #include <gtest/gtest.h>
@@ -152,17 +153,45 @@ TEST(Bake, AFlatObjectIsSeen) {
 }
 
 // Hard case 24.
-TEST(Bake, ACentreOnTheSurfaceIsReported) {
+TEST(Bake, ACentreOnTheSurfaceIsMovedOffIt) {
     Model model = box({-1, -1, -1}, {1, 1, 1});
-    test::add_quad(model, {-1, -1, 1e-6F}, {1, -1, 1e-6F}, {1, 1, 1e-6F}, {-1, 1, 1e-6F});
-    EXPECT_TRUE(bake_model(model, small()).report.center_on_surface);
-    EXPECT_FALSE(bake_model(box({-1, -1, -1}, {1, 1, 1}), small()).report.center_on_surface);
+    test::add_quad(model, {-1, -1, 1e-6F}, {1, -1, 1e-6F}, {1, 1, 1e-6F}, {-1, 1, 1e-6F}); // faces +Z
+    const Result result = bake_model(model, small());
+    const Vec3d center = result.map.map.parts.at(0).center;
+    EXPECT_NEAR(center.z, -std::sqrt(3.0) / 16, 1e-6); // against the normal
+    EXPECT_NEAR(center.x, 0, 1e-12);
+    EXPECT_NEAR(result.report.center_moved, 1.0 / 16, 1e-6);
+    EXPECT_FALSE(result.report.center_on_surface);
+    EXPECT_EQ(result.report.edge_on_triangles, 0U);
+    EXPECT_EQ(result.report.warnings.size(), 1U);
+    EXPECT_EQ(bake_model(box({-1, -1, -1}, {1, 1, 1}), small()).report.center_moved, 0);
 }
 
-// A sheet through the centre has no direction from which it can be seen.
+// On an edge of the surface the two faces' normals count alike; the way out is taken where the way in is
+// shut.
+TEST(Bake, TheMoveOffTheSurfaceIsClearOfAllOfIt) {
+    const auto distance = [](const Model& model, Vec3d p) {
+        double least = 1e9;
+        for (const Triangle& t : model.triangles) {
+            const auto corner = [&](unsigned k) { return to_double(model.positions[t.vertex[k]]); };
+            least =
+                std::min(least, length(closest_point_on_triangle(p, corner(0), corner(1), corner(2)) - p));
+        }
+        return least;
+    };
+    const Model cube = box({-1, -1, -1}, {1, 1, 1});
+    const Vec3d from_edge = center_off_surface(cube, {1, 1, 0});
+    EXPECT_NEAR(from_edge.x, from_edge.y, 1e-12);
+    EXPECT_LT(from_edge.x, 1);
+    EXPECT_GE(distance(cube, from_edge), std::sqrt(5.0 + 4.0) / 32 * (1 - 1e-9));
+    const Vec3d from_plate = center_off_surface(box({-1, -1, -0.04F}, {1, 1, 0.04F}), {0, 0, 0.04});
+    EXPECT_NEAR(from_plate.z - 0.04, std::sqrt(2.0 + 0.08 * 0.08) / 16, 1e-6);
+}
+
+// A sheet whose plane holds the centre has no direction from which it can be seen.
 TEST(Bake, EdgeOnTrianglesAreCounted) {
     Model model = box({-1, -1, -1}, {1, 1, 1});
-    test::add_quad(model, {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
+    test::add_quad(model, {0.5F, -1, 0}, {1, -1, 0}, {1, 1, 0}, {0.5F, 1, 0});
     EXPECT_EQ(bake_model(model, small()).report.edge_on_triangles, 2U);
 }
 

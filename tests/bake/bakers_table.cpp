@@ -1,70 +1,107 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints how far the radial and the orbit baker agree on the assets named on the command line: one line for
-// each asset and number of layers, exit code 6 if one misses the bar. tools/compare_bakers.sh runs it over a
-// folder.
+// Prints how far three casters agree on the assets named on the command line: the radial baker with the orbit
+// baker and with Embree's rays, one line for each asset and number of layers. Exit code 6 if one misses the
+// bar, 4 if a caster fails; files without a surface are named and passed over. tools/compare_bakers.sh runs
+// it over folders.
 #include "../../formats/import/import.h"
 #include "../../libspa/bake/bake.h"
 #include "../../libspa/core/error.h"
-#include "../../libspa/measure/compare.h"
+#include "agreement.h"
 
-#include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace {
 
 using namespace spa;
 
-struct Row {
-    double coverage = 0; // share of samples with a surface in one map alone
-    double depth = 0;    // share of common samples whose depths differ by more than two codes of u16
-    double color = 0;    // mean difference in codes of 255
-    [[nodiscard]] bool agrees() const { return coverage <= 0.001 && depth <= 0.001 && color <= 1.0; }
+struct Settings {
+    bake::Options options;
+    std::vector<std::string> assets;
 };
 
-// The worst surface counts; surfaces of a few samples are weighed against the whole map.
-Row compare_bakers(const Model& model, std::uint32_t layers) {
-    bake::Options options;
-    options.grid = options.color_grid = {Mapping::octahedral, 129, 129};
-    options.layers = layers;
-    const bake::Result radial = bake::bake_model(model, options);
-    options.baker = bake::Baker::orbit;
-    const bake::Result orbit = bake::bake_model(model, options);
-    const measure::MapDifference difference = measure::compare(radial.map.map, orbit.map.map);
-    Row row;
-    for (const measure::SurfaceDifference& s : difference.surfaces) {
-        const double samples = double(s.samples);
-        row.coverage = std::max(row.coverage, double(s.coverage_differs) / samples);
-        row.depth = std::max(row.depth, double(s.depth_differs) / samples);
-        row.color = std::max(row.color, s.color_mean * double(s.both) / samples);
+bool parse(std::span<char*> arguments, Settings& settings) {
+    bool latlong = false;
+    std::uint32_t size = 129;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const std::string_view word = arguments[i];
+        const std::string_view value = i + 1 < arguments.size() ? arguments[i + 1] : "";
+        if (!word.starts_with("--")) {
+            settings.assets.emplace_back(word);
+            continue;
+        }
+        if (word == "--gl" && (value == "egl" || value == "osmesa")) {
+            settings.options.gl = value == "egl" ? bake::GlApi::egl : bake::GlApi::osmesa;
+        } else if (word == "--mapping" && (value == "octahedral" || value == "latlong")) {
+            latlong = value == "latlong";
+        } else if (word != "--size" ||
+                   std::from_chars(value.data(), value.data() + value.size(), size).ec != std::errc{}) {
+            return false;
+        }
+        ++i;
     }
-    return row;
+    settings.options.grid =
+        latlong ? Grid{Mapping::latlong, size, size * 3 / 4} : Grid{Mapping::octahedral, size, size};
+    settings.options.color_grid = settings.options.grid;
+    return is_valid(settings.options.grid);
+}
+
+void print(const test::Agreement& a) {
+    std::printf(" | %8.3f %8.3f %7.3f %6llu %6llu %6llu", a.coverage * 100, a.depth * 100, a.color,
+                static_cast<unsigned long long>(a.differing), static_cast<unsigned long long>(a.ties),
+                static_cast<unsigned long long>(a.unexplained));
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
+    Settings settings;
+    if (!parse({argv + 1, argv + argc}, settings)) {
+        std::fprintf(stderr,
+                     "usage: bakers_table [--gl egl|osmesa] [--size N] [--mapping octahedral|latlong] "
+                     "MESH...\n");
+        return int(ExitCode::usage);
+    }
     int missed = 0;
+    int refused = 0;
     int failed = 0;
-    std::printf("%-60s %6s %10s %10s %8s\n", "asset", "layers", "coverage %", "depth %", "colour");
-    for (int i = 1; i < argc; ++i) {
+    std::printf("%-55s %6s | %-45s | %-45s\n", "", "", "radial and orbit", "radial and Embree");
+    std::printf("%-55s %6s", "asset", "layers");
+    for (int k = 0; k < 2; ++k)
+        std::printf(" | %8s %8s %7s %6s %6s %6s", "cover %", "depth %", "colour", "differ", "ties", "other");
+    std::printf("\n");
+    for (const std::string& asset : settings.assets) {
         try {
-            const Model model = import::read_model(argv[i]).model;
+            const Model model = import::read_model(asset).model;
             for (const std::uint32_t layers : {1U, 2U}) {
-                const Row row = compare_bakers(model, layers);
-                std::printf("%-60s %6u %10.3f %10.3f %8.3f%s\n", argv[i], layers, row.coverage * 100,
-                            row.depth * 100, row.color, row.agrees() ? "" : "  MISSES");
-                if (!row.agrees()) ++missed;
+                settings.options.layers = layers;
+                const test::Comparison comparison(model, settings.options);
+                const test::Agreement orbit = comparison.of_orbit(settings.options.gl);
+                const test::Agreement embree = comparison.of_embree();
+                std::printf("%-55s %6u", asset.c_str(), layers);
+                print(orbit);
+                print(embree);
+                const bool agree = test::agrees(orbit) && test::agrees(embree);
+                std::printf("%s\n", agree ? "" : "  MISSES");
+                if (!agree) ++missed;
+                std::fflush(stdout);
             }
+        } catch (const Error& error) {
+            std::printf("%s\n", error.what());
+            ++(error.code() == ExitCode::invalid_data ? refused : failed);
         } catch (const std::exception& error) {
-            std::printf("%-60s %s\n", argv[i], error.what());
+            std::printf("%s: %s\n", asset.c_str(), error.what());
             ++failed;
         }
         std::fflush(stdout);
     }
-    std::printf("%d assets, %d figures miss the bar, %d assets could not be baked\n", argc - 1, missed,
-                failed);
-    if (failed > 0) return int(ExitCode::invalid_data);
+    std::printf("%zu assets: %d without a surface, %d failed; %d lines miss the bar\n",
+                settings.assets.size(), refused, failed, missed);
+    if (failed > 0) return int(ExitCode::internal);
     return missed > 0 ? int(ExitCode::limits) : 0;
 }

@@ -51,33 +51,50 @@ uint to_code(float value) { return uint(floor(clamp(value, 0.0, 1.0) * 255.0 + 0
 // NaN gives 0 and huge coordinates lose their fraction, as in the radial baker.
 float bounded(float v) { return isnan(v) ? 0.0 : clamp(v, -1e9, 1e9); }
 
+// Without contraction, so that cross(p, q) is exactly -cross(q, p): triangles agree bit by bit about the edge they
+// share, and with the radial baker.
+dvec3 exact_cross(dvec3 p, dvec3 q) {
+    precise dvec3 result =
+        dvec3(p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x);
+    return result;
+}
+double exact_dot(dvec3 p, dvec3 q) {
+    precise double result = p.x * q.x + p.y * q.y + p.z * q.z;
+    return result;
+}
+
 void main() {
     Camera view = cameras[camera];
-    dvec3 u = dvec3(view.direction[0], view.direction[1], view.direction[2]);
+    dvec3 g = dvec3(view.ray[0], view.ray[1], view.ray[2]);
     dvec3 a = corner(0u);
     dvec3 b = corner(1u);
     dvec3 c = corner(2u);
-    dvec3 plane = cross(b - a, c - a);
 
-    // The axis meets the plane at r u. Rounding in the rasteriser can let it cover a pixel just beside the triangle,
-    // where the plane of a triangle seen edge-on runs away: the corners bound r.
-    double slope = dot(plane, u);
-    double ra = dot(a, u);
-    double rb = dot(b, u);
-    double rc = dot(c, u);
-    double r = slope != 0.0 ? dot(plane, a) / slope : ra;
-    r = clamp(r, min(ra, min(rb, rc)), max(ra, max(rb, rc)));
-    float radius = min(float(r), 1.0);
-    if (!(radius > 0.0)) discard;
+    // The triangle was drawn too large by a margin (orbit.vert): the axis meets it iff no edge function is negative
+    // (sample_rays.h, which has the same formulas).
+    dvec3 bc = exact_cross(b, c);
+    double d = exact_dot(a, bc);
+    dvec3 e = dvec3(exact_dot(bc, g), exact_dot(exact_cross(c, a), g), exact_dot(exact_cross(a, b), g));
+    if (d < 0.0) {
+        d = -d;
+        e = -e;
+    }
+    if (!(e.x >= 0.0 && e.y >= 0.0 && e.z >= 0.0)) discard;
+    precise double sum = e.x + e.y + e.z;
+    if (!(sum > 0.0)) discard;
+    precise double r = d / sum * view.ray_length;
+    float radius = float(clamp(r, 1.1754943508222875e-38LF, 1.0LF));
 
     if (first_round == 0u && !(radius < texelFetch(found_radius, ivec2(gl_FragCoord.xy), 0).r)) discard;
 
-    dvec3 q = r * u - a;
-    double area2 = dot(plane, plane);
-    double wb = clamp(dot(cross(q, c - a), plane) / area2, 0.0, 1.0);
-    double wc = clamp(dot(cross(b - a, q), plane) / area2, 0.0, 1.0 - wb);
-    double wa = 1.0 - wb - wc;
+    precise double scale = 1.0LF / sum;
+    double wa = e.x * scale;
+    double wb = e.y * scale;
+    double wc = e.z * scale;
     vec3 weight = vec3(wa, wb, wc);
+    dvec3 plane = cross(b - a, c - a);
+    double slope = dot(plane, g) / view.ray_length;
+    double area2 = dot(plane, plane);
 
     uint facing = corners[item].material & back_facing_bit;
     Material material = materials[corners[item].material & ~back_facing_bit];

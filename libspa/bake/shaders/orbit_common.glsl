@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What both stages of the orbit baker read. The structures mirror those of orbit_scene.h.
 
-// One view: a camera on the unit sphere at `direction`, aimed at the origin.
+// One view: a camera on the unit sphere in the direction of `ray`, aimed at the origin.
 struct Camera {
-    double direction[3]; // unit
-    float right[3];      // unit, perpendicular to each other and to the direction
+    double ray[3];     // the sample's direction as the map defines it, not normalised
+    double ray_length; // its length
+    float right[3];    // unit, perpendicular to each other and to the ray
     float up[3];
     float solid_angle; // that the sample stands for
     float padding;
