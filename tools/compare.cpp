@@ -128,22 +128,25 @@ Verb compare_verb() {
         .summary = "compare two .spa files sample by sample",
         .description =
             "Checks both files in full, compares them sample by sample and prints the worst figure over all "
-            "surfaces. Element formats may differ, since decoded values are compared; the parts, mappings "
-            "and "
-            "sizes must be the same. Depth and normals are compared where both maps have a surface, colours "
-            "where both have coverage. Metadata and error figures are not compared.\n\n"
-            "Without --warn and --fail, any difference ends with exit status 6. With them only the figures "
+            "surfaces. Element formats may differ, since decoded values are compared; parts, mappings and "
+            "sizes must be the same. Metadata and error figures are not compared.\n\n"
+            "The figures: center, in R, radius, relative, and frame, the largest difference of two elements; "
+            "coverage, the share of samples with a surface in one map alone; where both have one, "
+            "depth_differs, the share of samples more than 2 codes of u16 apart, depth_mean and depth_max in "
+            "R, "
+            "normal_mean and normal_max in degrees; where both have colour, color_mean and color_max of red, "
+            "green and blue in codes of 255; alpha_mean of the colours' coverage, in codes of 255.\n\n"
+            "Without --warn and --fail any difference ends with exit status 6. With them only the figures "
             "named are judged: what exceeds a --warn limit is a warning, what exceeds a --fail limit ends "
             "with "
             "status 6. Files that cannot be compared always do.\n\n"
             "--sheet writes a picture when a limit is exceeded: for every surface both colours, and the "
             "differences of depth, normals and colour on logarithmic scales.",
-        .examples =
-            "$ spa compare radial.spa orbit.spa\n"
-            "$ spa compare radial.spa orbit.spa --fail coverage=0.001,depth_differs=0.001,color_mean=1\n"
-            "$ spa compare yesterday.spa today.spa --warn depth_max=1e-4 --fail depth_max=1e-3 "
-            "--sheet difference.png\n"
-            "$ spa compare a.spa b.spa --format json | jq .figures",
+        .examples = "$ spa compare a.spa b.spa\n"
+                    "$ spa compare a.spa b.spa --fail coverage=0.001,depth_differs=0.001\n"
+                    "$ spa compare a.spa b.spa --warn depth_max=1e-4 --fail depth_max=1e-3\n"
+                    "$ spa compare a.spa b.spa --fail color_mean=1 --sheet difference.png\n"
+                    "$ spa compare a.spa b.spa --format json | jq .figures",
         .see_also = "spa validate, spa bake",
         .define = [](CLI::App& app) -> std::function<void()> {
             const auto arguments = std::make_shared<Arguments>();

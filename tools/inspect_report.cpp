@@ -116,7 +116,11 @@ std::string vector_text(Vec3d v) {
     return "(" + fixed(v.x, 6) + ", " + fixed(v.y, 6) + ", " + fixed(v.z, 6) + ")";
 }
 
-std::string line(const char* label, const std::string& text) { return pad_right(label, 12) + text + "\n"; }
+constexpr std::size_t label_width = 12;
+
+std::string line(const char* label, const std::string& text) {
+    return pad_right(label, label_width) + text + "\n";
+}
 
 // One character a bin; its height tells the share in relation to the fullest bin.
 std::string bar_graph(const DepthStatistics& depth) {
@@ -140,7 +144,8 @@ std::string errors_text(const ErrorFigures& errors) {
     std::string text;
     for (const ErrorFigure& figure : error_figures)
         if (const float value = errors.*figure.value; !std::isnan(value))
-            text += (text.empty() ? "" : ", ") + std::string(figure.name) + " " + fixed(double(value), 6);
+            text += (text.empty() ? "" : "\n" + pad_right("", label_width)) + pad_right(figure.name, 23) +
+                    significant(double(value), 3);
     return text.empty() ? "not measured" : text;
 }
 
