@@ -15,6 +15,10 @@
 #include <string>
 #include <vector>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace spa::tools {
 
 namespace {
@@ -114,6 +118,13 @@ int run(const std::vector<std::string>& arguments) {
 } // namespace spa::tools
 
 int main(int argc, char** argv) {
+#ifdef __GLIBC__
+    // A bake takes and frees arrays of many megabytes. Left alone, malloc gives each back to the kernel, and
+    // touching the pages of the next one costs more than the work on them.
+    mallopt(M_MMAP_THRESHOLD, 1 << 30);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    mallopt(M_TOP_PAD, 64 << 20);
+#endif
     try {
         return spa::tools::run({argv + std::min(argc, 1), argv + argc});
     } catch (...) {

@@ -13,8 +13,11 @@
 #include "../mesh/closest_point.h"
 #include "../mesh/components.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -24,19 +27,40 @@ namespace {
 
 constexpr double on_surface_distance = 1e-4;
 
+bool touches_center(Vec3d a, Vec3d b, Vec3d c) {
+    // Most triangles lie clearly to one side of it along some axis.
+    constexpr double clear = on_surface_distance * 1.001;
+    const auto aside = [](double p, double q, double r) {
+        return std::min(std::min(p, q), r) > clear || std::max(std::max(p, q), r) < -clear;
+    };
+    if (aside(a.x, b.x, c.x) || aside(a.y, b.y, c.y) || aside(a.z, b.z, c.z)) return false;
+    return length(closest_point_on_triangle({}, a, b, c)) < on_surface_distance;
+}
+
 // What can be said of the triangles as the centre sees them.
 void inspect_triangles(const CenteredModel& centered, Report& report) {
-    report.edge_on_triangles = 0;
-    report.center_on_surface = false;
-    for (const Triangle& triangle : centered.model->triangles) {
-        const Vec3d a = to_double(centered.positions[triangle.vertex[0]]);
-        const Vec3d b = to_double(centered.positions[triangle.vertex[1]]);
-        const Vec3d c = to_double(centered.positions[triangle.vertex[2]]);
-        if (dot(a, cross(b, c)) == 0) ++report.edge_on_triangles;
-        if (!report.center_on_surface) {
-            report.center_on_surface = length(closest_point_on_triangle({}, a, b, c)) < on_surface_distance;
-        }
-    }
+    struct Findings {
+        std::uint64_t edge_on = 0;
+        bool on_surface = false;
+    };
+    const auto& triangles = centered.model->triangles;
+    const Findings findings = tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, triangles.size(), 16384), Findings{},
+        [&](const auto& range, Findings found) {
+            for (std::size_t t = range.begin(); t < range.end(); ++t) {
+                const Vec3d a = to_double(centered.positions[triangles[t].vertex[0]]);
+                const Vec3d b = to_double(centered.positions[triangles[t].vertex[1]]);
+                const Vec3d c = to_double(centered.positions[triangles[t].vertex[2]]);
+                if (dot(a, cross(b, c)) == 0) ++found.edge_on;
+                if (!found.on_surface) found.on_surface = touches_center(a, b, c);
+            }
+            return found;
+        },
+        [](const Findings& p, const Findings& q) {
+            return Findings{p.edge_on + q.edge_on, p.on_surface || q.on_surface};
+        });
+    report.edge_on_triangles = findings.edge_on;
+    report.center_on_surface = findings.on_surface;
 }
 
 std::uint64_t back_facing_samples(const CrossingGrid& crossings) {

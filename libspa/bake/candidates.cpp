@@ -53,6 +53,12 @@ Polygon clip(const Polygon& in, unsigned axis, double sign) {
 
 struct Bounds {
     double x0 = 1e300, y0 = 1e300, x1 = -1e300, y1 = -1e300;
+    void widen(double x, double y) {
+        x0 -= x;
+        x1 += x;
+        y0 -= y;
+        y1 += y;
+    }
     void extend(double x, double y) {
         x0 = std::min(x0, x);
         x1 = std::max(x1, x);
@@ -71,14 +77,27 @@ std::int64_t floor_int(double v) {
     return i - (v < double(i) ? 1 : 0);
 }
 
-// The samples in a padded box, cut to [0, width) x [0, height); false if there are none.
-bool to_rect(const Bounds& box, double pad, const Grid& grid, SampleRect& rect) {
-    const auto x0 = std::max<std::int64_t>(0, ceil_int(box.x0 - pad));
-    const auto x1 = std::min<std::int64_t>(std::int64_t(grid.width) - 1, floor_int(box.x1 + pad));
-    if (x0 > x1) return false;
-    const auto y0 = std::max<std::int64_t>(0, ceil_int(box.y0 - pad));
-    const auto y1 = std::min<std::int64_t>(std::int64_t(grid.height) - 1, floor_int(box.y1 + pad));
-    if (y0 > y1) return false;
+// Of three mapped vertices.
+template <class Mapped>
+[[gnu::always_inline]] inline Bounds box_of(const Mapped& a, const Mapped& b, const Mapped& c) {
+    return {std::min(std::min(a.x, b.x), c.x), std::min(std::min(a.y, b.y), c.y),
+            std::max(std::max(a.x, b.x), c.x), std::max(std::max(a.y, b.y), c.y)};
+}
+
+// The samples in a box, cut to [0, width) x [0, height); false if there are none. Most boxes of a dense mesh
+// lie between two columns or two rows: that is found first.
+[[gnu::always_inline]] inline bool to_rect(const Bounds& box, const Grid& grid, SampleRect& rect) {
+    const std::int64_t first_x = ceil_int(box.x0);
+    const std::int64_t last_x = floor_int(box.x1);
+    if (first_x > last_x) return false;
+    const std::int64_t first_y = ceil_int(box.y0);
+    const std::int64_t last_y = floor_int(box.y1);
+    if (first_y > last_y) return false;
+    const auto x0 = std::max<std::int64_t>(0, first_x);
+    const auto x1 = std::min<std::int64_t>(std::int64_t(grid.width) - 1, last_x);
+    const auto y0 = std::max<std::int64_t>(0, first_y);
+    const auto y1 = std::min<std::int64_t>(std::int64_t(grid.height) - 1, last_y);
+    if (x0 > x1 || y0 > y1) return false;
     rect = {std::uint32_t(x0), std::uint32_t(y0), std::uint32_t(x1), std::uint32_t(y1)};
     return true;
 }
@@ -144,9 +163,9 @@ std::size_t Candidates::find_octahedral(const Triangle& triangle,
     const Mapped& c = mapped_[triangle.vertex[2]];
     if (a.octant != b.octant || a.octant != c.octant || a.octant == irregular)
         return find_clipped(triangle, rects);
-    Bounds box;
-    for (const Mapped* m : {&a, &b, &c}) box.extend(m->x, m->y);
-    return to_rect(box, pad_, grid_, rects[0]) ? 1 : 0;
+    Bounds box = box_of(a, b, c);
+    box.widen(pad_, pad_);
+    return to_rect(box, grid_, rects[0]) ? 1 : 0;
 }
 
 std::size_t Candidates::find_clipped(const Triangle& triangle, std::span<SampleRect, max_rects> rects) const {
@@ -171,7 +190,8 @@ std::size_t Candidates::find_clipped(const Triangle& triangle, std::span<SampleR
             const Vec2d st = octant_chart(octant, p);
             box.extend((st.x + 1) * half, (1 - st.y) * half);
         }
-        if (to_rect(box, pad_, grid_, rects[count])) ++count;
+        box.widen(pad_, pad_);
+        if (to_rect(box, grid_, rects[count])) ++count;
     }
     return count;
 }
@@ -183,6 +203,15 @@ std::size_t Candidates::find_latlong(const Triangle& triangle, std::span<SampleR
     const Mapped& b = mapped_[triangle.vertex[1]];
     const Mapped& c = mapped_[triangle.vertex[2]];
     const double width = grid_.width;
+    const bool regular = ((a.octant | b.octant | c.octant) & irregular) == 0;
+    Bounds box = box_of(a, b, c);
+    const double span = box.x1 - box.x0;
+    if (regular && span < width / 2 - 2 * pad_ && box.x0 >= pad_ && box.x1 <= width - 1 - pad_) {
+        // Away from seam and poles.
+        box.widen(pad_, bulge(triangle, false, half_angle(span)) + pad_);
+        return to_rect(box, grid_, rects[0]) ? 1 : 0;
+    }
+
     double low = 0;
     double high = 0;
     for (const Mapped* m : {&b, &c}) {
@@ -192,27 +221,22 @@ std::size_t Candidates::find_latlong(const Triangle& triangle, std::span<SampleR
         low = std::min(low, d);
         high = std::max(high, d);
     }
-    const bool full = high - low >= width / 2 - 2 * pad_ || a.octant == irregular || b.octant == irregular ||
-                      c.octant == irregular;
+    const bool full = !regular || high - low >= width / 2 - 2 * pad_;
     const auto first = double(ceil_int(a.x + low - pad_));
     const auto last = double(floor_int(a.x + high + pad_));
     if (!full && first > last) return 0;
 
-    Bounds box;
-    for (const Mapped* m : {&a, &b, &c}) box.extend(m->x, m->y);
-    const double rows = bulge(triangle, full, (high - low + 2 * pad_) / width * std::numbers::pi) + pad_;
-    box.y0 -= rows;
-    box.y1 += rows;
+    box.widen(0, bulge(triangle, full, half_angle(high - low)) + pad_);
     if (full || last - first + 1 >= width) {
         box.x0 = 0;
         box.x1 = width - 1;
-        return to_rect(box, 0, grid_, rects[0]) ? 1 : 0;
+        return to_rect(box, grid_, rects[0]) ? 1 : 0;
     }
     std::size_t count = 0;
     for (const double shift : {0.0, -width, width}) {
         box.x0 = first + shift;
         box.x1 = last + shift;
-        if (to_rect(box, 0, grid_, rects[count])) ++count;
+        if (to_rect(box, grid_, rects[count])) ++count;
     }
     return count;
 }
@@ -221,9 +245,18 @@ std::size_t Candidates::find_latlong(const Triangle& triangle, std::span<SampleR
 // circle comes closest to the pole within the edge. Then the corner nearer to that point has at most half of
 // the edge's longitudes to it, h, and by tan(latitude of the corner) = tan(latitude of the point) cos(their
 // longitudes' difference) the bulge is at most (1/cos h - 1)/2 <= 0.32 h^2 for h <= 1/2.
-double Candidates::bulge(const Triangle& triangle, bool full, double half_longitudes) const {
+inline double Candidates::bulge(const Triangle& triangle, bool full, double half_longitudes) const {
     if (!full && half_longitudes <= 0.5)
         return 0.32 * half_longitudes * half_longitudes / std::numbers::pi * grid_.height;
+    return wide_bulge(triangle, full);
+}
+
+// Half of so many columns, as an angle of longitude.
+inline double Candidates::half_angle(double columns) const {
+    return (columns + 2 * pad_) / grid_.width * std::numbers::pi;
+}
+
+double Candidates::wide_bulge(const Triangle& triangle, bool full) const {
     // Wide ones: less than half the longest edge; around a pole all of it, because the triangle reaches the
     // pole, and no corner is farther from it than the longest edge.
     double longest = 0; // an upper bound of the longest edge as an angle

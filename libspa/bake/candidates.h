@@ -34,7 +34,9 @@ private:
     std::size_t find_octahedral(const Triangle& triangle, std::span<SampleRect, max_rects> rects) const;
     std::size_t find_clipped(const Triangle& triangle, std::span<SampleRect, max_rects> rects) const;
     std::size_t find_latlong(const Triangle& triangle, std::span<SampleRect, max_rects> rects) const;
+    double half_angle(double columns) const;
     double bulge(const Triangle& triangle, bool full, double half_longitudes) const;
+    double wide_bulge(const Triangle& triangle, bool full) const;
 
     Grid grid_;
     const std::vector<Vec3f>* positions_;

@@ -52,8 +52,11 @@ struct CastOptions {
     Progress progress{};        // may be empty
 };
 
-// Rules both bakers follow, so that they agree:
-// - A crossing is where the ray from the origin along sample_direction meets a triangle, edges included.
+// Rules all casters follow, so that they agree:
+// - A crossing is where the ray from the origin along sample_direction meets a triangle, edges and corners
+//   included, borders of open surfaces too. Whether it does, and where, follows from the edge functions in
+//   sample_rays.h, in double precision without contraction: positions are floats, so ties are rare rays that
+//   models and grids of simple fractions meet all the time, and the sign of a rounded zero must not decide.
 //   Nothing is culled: a ray tracer needs the geometry whatever its winding.
 // - AlphaMode::mask: no crossing where alpha < alpha_cutoff. AlphaMode::blend: none where the 8-bit alpha
 //   rounds to 0. Alpha = base_color * vertex colour * texture, filtered as the colour.

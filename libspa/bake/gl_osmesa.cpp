@@ -6,11 +6,45 @@
 #include "../core/error.h"
 
 #include <GL/osmesa.h>
+#include <dlfcn.h>
 
 #include <array>
+#include <memory>
 
 namespace spa::bake {
 namespace {
+
+// The library, loaded when it is asked for: it brings a compiler (LLVM) along, which would cost every start
+// of every program that can bake some ten milliseconds.
+class OsmesaLibrary {
+public:
+    // Throws Error{unsupported} whose message is the reason alone.
+    OsmesaLibrary() : handle_(dlopen(SPA_OSMESA_SONAME, RTLD_NOW | RTLD_LOCAL)) {
+        if (!handle_) throw Error(ExitCode::unsupported, dlerror());
+        load(create, "OSMesaCreateContextAttribs");
+        load(make_current, "OSMesaMakeCurrent");
+        load(destroy, "OSMesaDestroyContext");
+        load(procedure, "OSMesaGetProcAddress");
+    }
+
+    decltype(&OSMesaCreateContextAttribs) create = nullptr;
+    decltype(&OSMesaMakeCurrent) make_current = nullptr;
+    decltype(&OSMesaDestroyContext) destroy = nullptr;
+    decltype(&OSMesaGetProcAddress) procedure = nullptr;
+
+private:
+    template <class Function>
+    void load(Function& function, const char* name) {
+        function = reinterpret_cast<Function>(dlsym(handle_.get(), name));
+        if (function == nullptr)
+            throw Error(ExitCode::unsupported, std::string(SPA_OSMESA_SONAME " lacks ") + name);
+    }
+
+    struct Close {
+        void operator()(void* handle) const { dlclose(handle); }
+    };
+    std::unique_ptr<void, Close> handle_;
+};
 
 class OsmesaContext final : public GlContext {
 public:
@@ -25,14 +59,15 @@ public:
                                                 OSMESA_CONTEXT_MINOR_VERSION,
                                                 5,
                                                 0};
-        context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+        context_ = library_.create(attributes.data(), nullptr);
         if (!context_)
             throw Error(ExitCode::unsupported, "OSMesaCreateContextAttribs (OpenGL 4.5 core) failed");
         try {
-            if (!OSMesaMakeCurrent(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1)) {
+            if (!library_.make_current(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1)) {
                 throw Error(ExitCode::unsupported, "OSMesaMakeCurrent failed");
             }
-            gl_ = load_gl_functions([](const char* name) { return GlProcedure(OSMesaGetProcAddress(name)); });
+            gl_ =
+                load_gl_functions([this](const char* name) { return GlProcedure(library_.procedure(name)); });
         } catch (...) {
             close();
             throw;
@@ -45,10 +80,11 @@ public:
 
 private:
     void close() {
-        OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
-        OSMesaDestroyContext(context_);
+        library_.make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+        library_.destroy(context_);
     }
 
+    OsmesaLibrary library_;
     OSMesaContext context_ = nullptr;
     std::array<unsigned char, 4> pixel_{}; // the window that OSMesa insists on
     GlFunctions gl_;

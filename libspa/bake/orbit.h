@@ -33,10 +33,10 @@ std::unique_ptr<GlContext> make_gl_context(GlApi api);
 // Finds the crossings of every sample with one camera view a sample. naive: one draw call and one read-back
 // a view, every triangle each time: the paper's way, for measuring; otherwise each view draws only triangles
 // whose directions come near its axis, and views are drawn in batches into one-pixel tiles. Both give the
-// same crossings but for views whose axis meets an edge to within rounding (2e-7 of the radius). Call it on
-// the thread on which `context` is current. Memory beyond the model: a fixed amount for the batch in flight
-// (below 200 MB), the textures' copies, and the result. Throws Error{unsupported} when the context lacks what
-// is needed, Error{internal} on an OpenGL error, and Cancelled. Source: ../../docs/baking.md, "Orbit".
+// same crossings. Call it on the thread on which `context` is current. Memory beyond the model: a fixed
+// amount for the batch in flight (below 200 MB), the textures' copies, and the result. Throws
+// Error{unsupported} when the context lacks what is needed, Error{internal} on an OpenGL error, and
+// Cancelled. Source: ../../docs/baking.md, "Orbit".
 CrossingGrid cast_orbit(const GlContext& context, const CenteredModel& model, const Grid& grid, bool naive,
                         const CastOptions& options);
 

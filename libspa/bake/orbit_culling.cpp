@@ -8,8 +8,8 @@ namespace {
 
 constexpr DirectionBound everything{{}, 4, {}, -4, 4, 0};
 
-// By how much the rasteriser can misplace an edge, in units of the sphere's radius, several times over: it
-// snaps to 1.2e-7, the transform and the clipping round to about as much.
+// By how much single precision, here and in a view's axis, can misplace an edge, in units of the sphere's
+// radius, several times over.
 constexpr double edge_noise = 2e-6;
 // What that can do to the distance of a triangle seen at a slant.
 constexpr double distance_noise = 1e-4;

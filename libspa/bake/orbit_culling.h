@@ -22,7 +22,7 @@ struct DirectionBound {
     float nearest = 0; // no point of the triangle is closer to the origin
 };
 
-// The bound is wider than the triangle by what single precision and the rasteriser's grid can move its edges.
+// The bound is wider than the triangle by what single precision can move its edges.
 // corners: finite.
 DirectionBound bound_directions(const std::array<Vec3d, 3>& corners);
 

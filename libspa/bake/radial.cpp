@@ -3,6 +3,7 @@
 
 #include "arena.h"
 #include "candidates.h"
+#include "intersect_block.h"
 #include "order_crossings.h"
 #include "progress_meter.h"
 #include "sample_rays.h"
@@ -13,19 +14,18 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
-#include <bit>
+#include <utility>
 
 namespace spa::bake {
 namespace {
 
-// Calls found(sample, triangle, hit, front_facing) for every pair of sample and triangle that meet, in
+// Calls found(sample, triangle, radius, front_facing) for every pair of sample and triangle that meet, in
 // parallel over triangles; a pair may come twice. begin() makes a `found` for each run of triangles.
 template <class Begin>
 void rasterize(const SampleRays& rays, ProgressMeter& meter, Begin&& begin) {
     const auto& triangles = rays.model.model->triangles;
     const Candidates candidates(rays.grid, rays.model.positions);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles.size(), 1024), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles.size(), 256), [&](const auto& range) {
         if (meter.cancelled()) return;
         auto&& found = begin();
         std::array<SampleRect, Candidates::max_rects> rects;
@@ -36,15 +36,10 @@ void rasterize(const SampleRays& rays, ProgressMeter& meter, Begin&& begin) {
             if (!setup.visible()) continue;
             const bool opaque = !rays.shader.needs_alpha(i);
             for (std::size_t r = 0; r < count; ++r) {
-                for (std::uint32_t y = rects[r].y0; y <= rects[r].y1; ++y) {
-                    for (std::uint32_t x = rects[r].x0; x <= rects[r].x1; ++x) {
-                        const Vec3d g = rays.directions(x, y);
-                        RayHit hit;
-                        if (!intersect(setup, g, hit)) continue;
-                        if (!opaque && !rays.visible(i, {x, y}, g, hit)) continue;
-                        found(rays.owner({x, y}), i, hit, setup.front_facing);
-                    }
-                }
+                each_hit(setup, rays.directions, rects[r], [&](TexelIndex at, double radius) {
+                    if (!opaque && !rays.visible(i, at, setup)) return;
+                    found(rays.owner(at), i, float(radius), setup.front_facing);
+                });
             }
         }
         meter.add(range.size());
@@ -65,26 +60,54 @@ void each_sample(const Grid& grid, Visit&& visit) {
     });
 }
 
-// Positive floats order like their bits, so one integer maximum picks the outermost crossing and, among
-// equals, the smallest triangle index - in whatever order threads arrive.
-std::vector<OutermostHit> find_outermost(const SampleRays& rays, ProgressMeter& meter) {
-    std::vector<std::uint64_t> keys(sample_count(rays.grid), 0);
-    const auto keep = [&](std::size_t sample, std::uint32_t triangle, const RayHit& hit, bool) {
-        const std::uint64_t key =
-            std::uint64_t(std::bit_cast<std::uint32_t>(float(hit.radius))) << 32U | (0xFFFFFFFFU - triangle);
-        const std::atomic_ref<std::uint64_t> best(keys[sample]);
-        std::uint64_t seen = best.load(std::memory_order_relaxed);
-        while (seen < key && !best.compare_exchange_weak(seen, key, std::memory_order_relaxed)) {
+// A map a thread spares atomic operations, which take longer than all else where triangles are larger than
+// samples. Larger maps are not worth their memory.
+constexpr std::size_t most_private_samples = std::size_t(1) << 20U;
+
+std::vector<OutermostHit> find_privately(const SampleRays& rays, ProgressMeter& meter) {
+    using Hits = std::vector<OutermostHit>;
+    tbb::enumerable_thread_specific<Hits> maps(sample_count(rays.grid));
+    rasterize(rays, meter, [&] {
+        return [&hits = maps.local()](std::size_t sample, std::uint32_t triangle, float radius, bool) {
+            hits[sample].keep_outermost({radius, triangle});
+        };
+    });
+    Hits result;
+    for (Hits& hits : maps) {
+        if (result.empty()) {
+            result = std::move(hits);
+            continue;
         }
+        for (std::size_t s = 0; s < hits.size(); ++s) result[s].keep_outermost(hits[s]);
+    }
+    return result;
+}
+
+std::vector<OutermostHit> find_together(const SampleRays& rays, ProgressMeter& meter) {
+    std::vector<OutermostHit> hits(sample_count(rays.grid));
+    const auto keep = [&](std::size_t sample, std::uint32_t triangle, float radius, bool) {
+        hits[sample].keep_outermost_atomically({radius, triangle});
     };
     rasterize(
         rays, meter, [&]() -> auto& { return keep; });
-    std::vector<OutermostHit> hits(keys.size());
-    each_sample(rays.grid, [&](std::size_t s, TexelIndex at) {
-        const std::uint64_t key = keys[rays.owner(at)];
-        if (key == 0) return;
-        hits[s] = {std::bit_cast<float>(std::uint32_t(key >> 32U)), 0xFFFFFFFFU - std::uint32_t(key)};
-    });
+    return hits;
+}
+
+std::vector<OutermostHit> find_outermost(const SampleRays& rays, ProgressMeter& meter) {
+    std::vector<OutermostHit> hits = sample_count(rays.grid) <= most_private_samples
+                                         ? find_privately(rays, meter)
+                                         : find_together(rays, meter);
+    const auto copy_owner = [&](std::uint32_t x, std::uint32_t y) {
+        hits[std::size_t(y) * rays.grid.width + x] = hits[rays.owner({x, y})];
+    };
+    for (std::uint32_t x = 0; x < rays.grid.width; ++x) {
+        copy_owner(x, 0);
+        copy_owner(x, rays.grid.height - 1);
+    }
+    for (std::uint32_t y = 0; y < rays.grid.height; ++y) {
+        copy_owner(0, y);
+        copy_owner(rays.grid.width - 1, y);
+    }
     return hits;
 }
 
@@ -94,11 +117,11 @@ CrossingGrid cast_outermost(const SampleRays& rays, ProgressMeter& meter) {
     result.grid = rays.grid;
     result.first.resize(hits.size() + 1, 0);
     for (std::size_t s = 0; s < hits.size(); ++s) {
-        result.first[s + 1] = result.first[s] + (hits[s].radius > 0 ? 1 : 0);
+        result.first[s + 1] = result.first[s] + (hits[s].empty() ? 0 : 1);
     }
     result.crossings.resize(result.first.back());
     each_sample(rays.grid, [&](std::size_t s, TexelIndex at) {
-        if (hits[s].radius > 0) result.crossings[result.first[s]] = rays.shade(at, hits[s].triangle);
+        if (!hits[s].empty()) result.crossings[result.first[s]] = rays.shade(at, hits[s].triangle());
     });
     return result;
 }
@@ -113,9 +136,9 @@ struct Found {
 CrossingGrid cast_all(const SampleRays& rays, ProgressMeter& meter) {
     tbb::enumerable_thread_specific<std::vector<Found>> lists;
     rasterize(rays, meter, [&] {
-        return [&list = lists.local()](std::size_t sample, std::uint32_t triangle, const RayHit& hit,
+        return [&list = lists.local()](std::size_t sample, std::uint32_t triangle, float radius,
                                        bool front_facing) {
-            list.push_back({std::uint32_t(sample), triangle, float(hit.radius), front_facing});
+            list.push_back({std::uint32_t(sample), triangle, radius, front_facing});
         };
     });
     const std::size_t samples = sample_count(rays.grid);

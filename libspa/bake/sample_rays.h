@@ -43,13 +43,18 @@ struct RayHit {
     double radius = 0;
 };
 
+// sum: of the three edge functions at g, > 0.
+inline double hit_radius(double d, double sum, Vec3d g) {
+    return std::clamp(d / sum * length(g), double(std::numeric_limits<float>::min()), 1.0);
+}
+
 inline bool intersect(const RaySetup& setup, Vec3d g, RayHit& hit) {
     const Vec3d e{dot(setup.edge[0], g), dot(setup.edge[1], g), dot(setup.edge[2], g)};
     if (!(e.x >= 0 && e.y >= 0 && e.z >= 0)) return false;
     const double sum = e.x + e.y + e.z;
     if (!(sum > 0)) return false;
     hit.barycentric = e * (1 / sum);
-    hit.radius = std::clamp(setup.d / sum * length(g), double(std::numeric_limits<float>::min()), 1.0);
+    hit.radius = hit_radius(setup.d, sum, g);
     return true;
 }
 
@@ -89,6 +94,13 @@ struct SampleRays {
         const double area =
             footprint(model, model.model->triangles[triangle], directions.solid_angle_of(at), g, hit.radius);
         return shader.color(triangle, hit.barycentric, area).visible;
+    }
+    // Of a ray that meets the triangle.
+    [[nodiscard]] bool visible(std::uint32_t triangle, TexelIndex at, const RaySetup& setup) const {
+        const Vec3d g = directions(at.x, at.y);
+        RayHit hit;
+        intersect(setup, g, hit);
+        return visible(triangle, at, g, hit);
     }
     [[nodiscard]] Crossing shade(TexelIndex at, Vec3d g, std::uint32_t triangle, const RayHit& hit,
                                  bool front_facing) const {

@@ -65,7 +65,8 @@ std::vector<bake::OutermostHit> trace_outermost(const bake::SampleRays& rays,
                 const Vec3f u = to_float(normalize(rays.directions(x, y)));
                 trace::TriangleHit hit;
                 if (scene.closest_hit(u * start, -u, start, hit))
-                    hits[std::size_t(y) * rays.grid.width + x] = {start - hit.t, hit.triangle};
+                    hits[std::size_t(y) * rays.grid.width + x] = {std::max(start - hit.t, 0.0F),
+                                                                  hit.triangle};
             }
         }
     });
@@ -78,14 +79,14 @@ bake::CrossingGrid shade(const bake::SampleRays& rays, const std::vector<bake::O
     result.grid = rays.grid;
     result.first.resize(hits.size() + 1, 0);
     for (std::size_t s = 0; s < hits.size(); ++s)
-        result.first[s + 1] = result.first[s] + (hits[s].radius > 0 ? 1 : 0);
+        result.first[s + 1] = result.first[s] + (hits[s].empty() ? 0 : 1);
     result.crossings.resize(result.first.back());
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, rays.grid.height), [&](const auto& rows) {
         for (std::uint32_t y = rows.begin(); y < rows.end(); ++y) {
             for (std::uint32_t x = 0; x < rays.grid.width; ++x) {
                 const std::size_t s = std::size_t(y) * rays.grid.width + x;
-                if (hits[s].radius > 0)
-                    result.crossings[result.first[s]] = rays.shade({x, y}, hits[s].triangle);
+                if (!hits[s].empty())
+                    result.crossings[result.first[s]] = rays.shade({x, y}, hits[s].triangle());
             }
         }
     });

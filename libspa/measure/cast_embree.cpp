@@ -76,7 +76,8 @@ public:
     void cast(const CenterRay& ray, std::vector<Crossing>& crossings) {
         // Beyond the unit sphere by more than rounding: a vertex on it must be hit.
         constexpr float reach = 1.01F;
-        const auto& [at, g] = ray;
+        const TexelIndex at = ray.texel;
+        const Vec3d g = ray.direction;
         found_.clear();
         scene_.all_hits({}, to_float(normalize(g)), reach, hits_);
         for (const trace::TriangleHit& h : hits_) {

@@ -122,8 +122,8 @@ const std::vector<Module>& modules() {
         {.folder = "libspa/bake/",
          .targets = {"bake", "orbit"},
          .uses = {"libspa/core/", "libspa/mesh/"},
-         .includes = {"EGL/", "GL/", "tbb/", "orbit_shaders.h"}, // the last is generated
-         .links = {"TBB::", "OpenGL::", "${OSMESA_LIBRARY}"}},
+         .includes = {"EGL/", "GL/", "dlfcn.h", "tbb/", "orbit_shaders.h"}, // the last is generated
+         .links = {"TBB::", "OpenGL::", "${CMAKE_DL_LIBS}"}},
         {.folder = "libspa/trace/",
          .targets = {"trace"},
          .uses = {"libspa/core/", "libspa/mesh/"},

@@ -90,6 +90,7 @@ Agreement Comparison::of(const Baked& other) const {
         if (s.both == 0) continue;
         result.depth = std::max(result.depth, double(s.depth_differs) / double(s.both));
         result.color = std::max(result.color, s.color_mean);
+        result.color_max = std::max(result.color_max, s.color_max);
         result.normal = std::max(result.normal, s.normal_median);
     }
     const std::vector<bool> differs =

@@ -13,6 +13,7 @@ struct Agreement {
     double coverage = 0;         // share of samples with a surface in one map alone
     double depth = 0;            // share of common samples whose depths differ by more than two codes of u16
     double color = 0;            // mean difference in codes of 255
+    std::uint32_t color_max = 0; // the largest difference of a channel
     double normal = 0;           // median difference in degrees
     std::uint64_t differing = 0; // samples whose coverage or depth differs in some surface
     std::uint64_t ties = 0;      // of these: the ray passes within edge_tie of an edge of a triangle that one

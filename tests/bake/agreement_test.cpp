@@ -19,6 +19,8 @@
 #include <numbers>
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace spa::bake {
 namespace {
@@ -150,15 +152,8 @@ TEST(Agreement, OfAHalfSphere) {
     expect_all_agree(model, Mapping::octahedral);
 }
 
-// The rule itself, in exact arithmetic: coordinates of rays and sheet are multiples of powers of two.
-TEST(Agreement, BordersBelongToTheSurface) {
-    const Model model = sheet();
-    CenteredModel scene;
-    scene.model = &model;
-    for (const Vec3f p : model.positions) scene.positions.push_back({p.x * 0.5F, 0.25F, p.z * 0.5F});
-    scene.normals = model.normals;
-    const Grid grid{Mapping::octahedral, 65, 65};
-    const trace::TriangleScene triangles(scene.positions, model.triangles);
+std::vector<std::pair<std::string, CrossingGrid>> cast_by_all(const CenteredModel& scene, const Grid& grid) {
+    const trace::TriangleScene triangles(scene.positions, scene.model->triangles);
     std::vector<std::pair<std::string, CrossingGrid>> casts;
     casts.emplace_back("radial", cast_radial(scene, grid, {}));
     casts.emplace_back("Embree", measure::cast_embree(scene, triangles, grid, {}));
@@ -167,18 +162,58 @@ TEST(Agreement, BordersBelongToTheSurface) {
         casts.emplace_back("orbit", cast_orbit(*make_gl_context(api), scene, grid, false, {}));
         casts.emplace_back("naive orbit", cast_orbit(*make_gl_context(api), scene, grid, true, {}));
     }
-    std::size_t on_border = 0;
-    for (std::size_t s = 0; s < std::size_t(grid.width) * grid.height; ++s) {
-        const Vec3d g =
-            sample_direction(grid, {std::uint32_t(s % grid.width), std::uint32_t(s / grid.width)});
-        const double reach = std::max(std::abs(g.x), std::abs(g.z));
-        on_border += g.y > 0 && reach == 2 * g.y ? 1 : 0;
-        for (const auto& [caster, cast] : casts) {
-            ASSERT_EQ(cast.first[s + 1] - cast.first[s], g.y > 0 && reach <= 2 * g.y ? 1U : 0U)
-                << caster << " sample " << s;
+    return casts;
+}
+
+// The rule itself, in exact arithmetic: coordinates of rays and sheets are multiples of powers of two. Rays
+// on the border belong to the sheet, and not to one that is smaller by a millionth.
+TEST(Agreement, BordersBelongToTheSurface) {
+    const Model model = sheet();
+    const Grid grid{Mapping::octahedral, 65, 65};
+    for (const double half : {0.5, 0.5 - std::exp2(-21), 0.5 + std::exp2(-21)}) {
+        CenteredModel scene;
+        scene.model = &model;
+        scene.normals = model.normals;
+        for (const Vec3f p : model.positions)
+            scene.positions.push_back({p.x * float(half), 0.25F, p.z * float(half)});
+        std::size_t on_border = 0;
+        for (const auto& [caster, cast] : cast_by_all(scene, grid)) {
+            for (std::size_t s = 0; s < std::size_t(grid.width) * grid.height; ++s) {
+                const Vec3d g =
+                    sample_direction(grid, {std::uint32_t(s % grid.width), std::uint32_t(s / grid.width)});
+                const double reach = std::max(std::abs(g.x), std::abs(g.z)) * 0.25;
+                on_border += g.y > 0 && reach == 0.5 * g.y ? 1 : 0;
+                ASSERT_EQ(cast.first[s + 1] - cast.first[s], g.y > 0 && reach <= half * g.y ? 1U : 0U)
+                    << caster << " half " << half << " sample " << s;
+            }
+        }
+        EXPECT_GT(on_border, 20U);
+    }
+}
+
+// Tilted by so little that a camera in the sheet's middle plane sees it thinner than the rasteriser's grid.
+TEST(Agreement, ASheetSeenEdgeOnIsStillThere) {
+    Model model = test::empty_model();
+    const float tilt = std::exp2(-40.0F);
+    test::add_quad(model, {0.25F, -0.5F, -tilt}, {0.75F, -0.5F, tilt}, {0.75F, 0.5F, tilt},
+                   {0.25F, 0.5F, -tilt});
+    CenteredModel scene;
+    scene.model = &model;
+    scene.positions = model.positions;
+    scene.normals = model.normals;
+    const Grid grid{Mapping::octahedral, 65, 65};
+    for (const auto& [caster, cast] : cast_by_all(scene, grid)) {
+        for (std::size_t s = 0; s < std::size_t(grid.width) * grid.height; ++s) {
+            const Vec3d g =
+                sample_direction(grid, {std::uint32_t(s % grid.width), std::uint32_t(s / grid.width)});
+            const bool met = g.z == 0 && g.x > 0 && std::abs(g.y) <= g.x;
+            ASSERT_EQ(cast.first[s + 1] - cast.first[s], met ? 1U : 0U) << caster << " sample " << s;
+            if (met) {
+                EXPECT_NEAR(double(cast.crossings[cast.first[s]].radius), 0.5 * length(g) / g.x, 1e-6)
+                    << caster;
+            }
         }
     }
-    EXPECT_GT(on_border, 50U);
 }
 
 class AgreementOfAsset : public testing::TestWithParam<const char*> {};

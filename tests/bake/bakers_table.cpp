@@ -52,9 +52,9 @@ bool parse(std::span<char*> arguments, Settings& settings) {
 }
 
 void print(const test::Agreement& a) {
-    std::printf(" | %8.3f %8.3f %7.3f %6llu %6llu %6llu", a.coverage * 100, a.depth * 100, a.color,
-                static_cast<unsigned long long>(a.differing), static_cast<unsigned long long>(a.ties),
-                static_cast<unsigned long long>(a.unexplained));
+    std::printf(" | %8.3f %8.3f %7.3f %4u %6llu %6llu %6llu", a.coverage * 100, a.depth * 100, a.color,
+                a.color_max, static_cast<unsigned long long>(a.differing),
+                static_cast<unsigned long long>(a.ties), static_cast<unsigned long long>(a.unexplained));
 }
 
 } // namespace
@@ -70,10 +70,11 @@ int main(int argc, char** argv) {
     int missed = 0;
     int refused = 0;
     int failed = 0;
-    std::printf("%-55s %6s | %-45s | %-45s\n", "", "", "radial and orbit", "radial and Embree");
+    std::printf("%-55s %6s | %-50s | %-50s\n", "", "", "radial and orbit", "radial and Embree");
     std::printf("%-55s %6s", "asset", "layers");
     for (int k = 0; k < 2; ++k)
-        std::printf(" | %8s %8s %7s %6s %6s %6s", "cover %", "depth %", "colour", "differ", "ties", "other");
+        std::printf(" | %8s %8s %7s %4s %6s %6s %6s", "cover %", "depth %", "colour", "max", "differ", "ties",
+                    "other");
     std::printf("\n");
     for (const std::string& asset : settings.assets) {
         try {
