@@ -52,6 +52,7 @@ Json counts_json(const BakeFacts& facts) {
         {"truncated_samples", bake.truncated_samples},
         {"center_on_surface", bake.center_on_surface},
         {"center_inside", bake.center_inside},
+        {"center_moved", bake.center_moved},
         {"layers", layers_json(bake)},
         {"dropped_degenerate", source.dropped_degenerate},
         {"dropped_non_finite", source.dropped_non_finite},

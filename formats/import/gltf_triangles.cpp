@@ -101,6 +101,15 @@ Vec3d area_normal(const Model& model, const Triangle& triangle) {
 
 } // namespace
 
+Fate fate_of(const Triangle& triangle, std::span<const Vec3f> positions) {
+    const auto [a, b, c] = triangle.vertex;
+    if (a == b || b == c || c == a) return Fate::degenerate;
+    const Vec3f pa = positions[a], pb = positions[b], pc = positions[c];
+    if (!is_finite(pa) || !is_finite(pb) || !is_finite(pc)) return Fate::non_finite;
+    const Vec3d normal = cross(to_double(pb) - to_double(pa), to_double(pc) - to_double(pa));
+    return normal == Vec3d{} ? Fate::degenerate : Fate::kept;
+}
+
 void make_flat(Model& model, std::size_t base, std::size_t first) {
     std::vector<std::uint32_t> corners;
     corners.reserve((model.triangles.size() - first) * 3);

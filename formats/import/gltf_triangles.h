@@ -5,6 +5,10 @@
 #include "../../libspa/mesh/model.h"
 #include "gltf_accessor.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,36 +24,36 @@ void append_triangles(const Elements* indices, std::size_t vertices, int mode, c
 // The vertices that the triangles from `first` on use, ascending; the triangles then index into that list.
 std::vector<std::uint32_t> renumber_used(std::vector<Triangle>& triangles, std::size_t first);
 
-// Drops the triangles from `first` on that have equal corners, no area or a corner that is not finite, and
-// counts them; the others get `base` added to their indices. `is_mirrored(triangle)`: swap two corners.
+enum class Fate : std::uint8_t { kept, degenerate, non_finite };
+// Of a triangle of these positions: degenerate if it has equal corners or no area.
+Fate fate_of(const Triangle& triangle, std::span<const Vec3f> positions);
+
+// Drops the triangles from `first` on that are not kept, and counts them; the others get `base` added to
+// their indices. `is_mirrored(triangle)`, from any thread: swap two corners.
 template <class IsMirrored>
 void finish_triangles(Model& model, std::size_t first, std::size_t base, Report& report,
                       IsMirrored is_mirrored) {
-    std::size_t kept = first;
-    for (std::size_t i = first; i < model.triangles.size(); ++i) {
-        const Triangle local = model.triangles[i];
-        const auto [a, b, c] = local.vertex;
-        if (a == b || b == c || c == a) {
-            ++report.dropped_degenerate;
-            continue;
+    const std::span<Triangle> triangles = std::span(model.triangles).subspan(first);
+    const std::span<const Vec3f> positions = std::span<const Vec3f>(model.positions).subspan(base);
+    const auto offset = static_cast<std::uint32_t>(base);
+    std::vector<Fate> fates(triangles.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles.size(), 16384), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            fates[i] = fate_of(triangles[i], positions);
+            const auto [a, b, c] = triangles[i].vertex;
+            if (is_mirrored(triangles[i]))
+                triangles[i] = {{a + offset, c + offset, b + offset}};
+            else
+                triangles[i] = {{a + offset, b + offset, c + offset}};
         }
-        const Vec3f pa = model.positions[base + a], pb = model.positions[base + b],
-                    pc = model.positions[base + c];
-        if (!is_finite(pa) || !is_finite(pb) || !is_finite(pc)) {
-            ++report.dropped_non_finite;
-            continue;
-        }
-        const Vec3d normal = cross(to_double(pb) - to_double(pa), to_double(pc) - to_double(pa));
-        if (normal == Vec3d{}) {
-            ++report.dropped_degenerate;
-            continue;
-        }
-        const auto offset = static_cast<std::uint32_t>(base);
-        Triangle out{{a + offset, b + offset, c + offset}};
-        if (is_mirrored(local)) std::swap(out.vertex[1], out.vertex[2]);
-        model.triangles[kept++] = out;
+    });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        if (fates[i] == Fate::kept) triangles[kept++] = triangles[i];
+        if (fates[i] == Fate::degenerate) ++report.dropped_degenerate;
+        if (fates[i] == Fate::non_finite) ++report.dropped_non_finite;
     }
-    model.triangles.resize(kept);
+    model.triangles.resize(first + kept);
 }
 
 // From vertex `base` and triangle `first` to the end of the model. Flat shading: every triangle gets vertices

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How long the ways to find a model's crossings take, and how much memory a bake needs. What is compared is
 // the same work: from a CenteredModel to the outermost crossing of every sample. What it means: README.md
-// and ../../docs/measuring.md, "Speed".
+// and ../../docs/measures.md, "Speed".
 #pragma once
 
 #include "../bake/bake_options.h"
