@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A defect planted in a map is found, and named with its place; a map without one has no finding.
 #include "../../libspa/measure/findings.h"
+#include "../support/shapes.h"
 #include "defects.h"
 
 #include <gtest/gtest.h>
@@ -146,6 +147,50 @@ TEST_F(PlantedDefect, AWrongCenter) {
     const Measurement m = measure_map(model_, part, {2000, 1, 0});
     EXPECT_NEAR(m.texel_distance.max, 0.01, 0.001);
     EXPECT_FALSE(find_defects(part, m, 0).empty());
+}
+
+// On an edge either surface is right: that is a tie, not a defect.
+TEST(Tie, TheNormalOfTheOtherFace) {
+    Model model = test::empty_model();
+    test::add_box(model, {-1, -1, -1}, {1, 1, 1});
+    bake::Result baked = bake::bake_model(model, test::small_options());
+    const Part& part = baked.map.map.parts[0];
+    const TexelIndex edge{48, 32}; // g = (0.5, 0, 0.5)
+    std::byte* const code = test::texel(baked.map, part.layers[0].outer.normal, edge);
+    const Vec3f normal = decode_normal(ElementFormat::oct16, code);
+    const Vec3d other = normal.x > 0.5F ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
+    encode_normal(ElementFormat::oct16, other, code);
+    const Measurement m = measure_map(model, part, {100, 1, 0});
+    EXPECT_TRUE(find_defects(part, m, 0).empty());
+    EXPECT_EQ(m.coverage.ties, 1U);
+    EXPECT_LT(m.normal_angle.max, 0.01);
+    encode_normal(ElementFormat::oct16, {0, 1, 0}, code);
+    const Measurement wrong = measure_map(model, part, {100, 1, 0});
+    EXPECT_EQ(wrong.coverage.ties, 0U);
+    EXPECT_EQ(wrong.normals_above, 1U);
+}
+
+TEST(Tie, TheBorderOfASheet) {
+    Model model = test::empty_model();
+    test::add_quad(model, {-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2});
+    bake::Options options;
+    options.grid = options.color_grid = {Mapping::octahedral, 49, 49};
+    options.layers = 1;
+    bake::Result baked = bake::bake_model(model, options);
+    const Part& part = baked.map.map.parts[0];
+    // The centre of a flat object lies half of its half size behind it, so the border is where x = 2 z: 16 of
+    // 24 cells from the middle.
+    ASSERT_EQ(part.center, (Vec3d{0, 0, 1.5}));
+    const ImageView& depth = part.layers[0].outer.depth;
+    ASSERT_GT(decode_depth(depth.format, depth.at(40, 24)), 0);
+    ASSERT_EQ(decode_depth(depth.format, depth.at(41, 24)), 0);
+    ASSERT_EQ(measure_map(model, part, {100, 1, 0}).coverage.ties, 0U);
+    test::clear_depth(baked.map, depth, {40, 24});
+    const Measurement border = measure_map(model, part, {100, 1, 0});
+    EXPECT_EQ(border.coverage.ties, 1U);
+    EXPECT_EQ(border.coverage.missing, 0U);
+    test::clear_depth(baked.map, depth, {39, 24});
+    EXPECT_EQ(measure_map(model, part, {100, 1, 0}).coverage.missing, 1U);
 }
 
 } // namespace
