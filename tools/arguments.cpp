@@ -13,7 +13,10 @@ CLI::Option* add_text(CLI::App& app, const std::string& names, const std::string
 
 CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& value_name,
                       const std::string& description, std::filesystem::path& path) {
-    return add_text(app, names, value_name, description, [&path](const std::string& text) { path = text; });
+    return add_text(app, names, value_name, description, [names, &path](const std::string& text) {
+        if (text.empty()) throw Error(ExitCode::usage, names + ": the path is empty");
+        path = text;
+    });
 }
 
 std::uint32_t parse_number(const std::string& option, const std::string& text, std::uint32_t lowest,
@@ -33,7 +36,7 @@ double parse_measure(const std::string& option, const std::string& text) {
     const auto [stopped, error] = std::from_chars(text.data(), end, value);
     if (error != std::errc{} || stopped != end || !(value >= 0) || !std::isfinite(value))
         throw Error(ExitCode::usage, option + ": '" + text + "' is not a number of 0 or more");
-    return value;
+    return value + 0.0; // -0 is 0
 }
 
 const char* name(ReportFormat format) { return format == ReportFormat::json ? "json" : "text"; }

@@ -42,6 +42,7 @@ measure::Measurement measure_with_progress(const BakeArguments& arguments, const
     ProgressReport progress("measuring " + arguments.output.filename().string(), arguments.quiet);
     measure::MeasureOptions options;
     options.color_samples = arguments.options.samples;
+    options.layers = arguments.options.layers;
     options.threads = arguments.options.threads;
     return measure::measure_map(model, part, options, [&progress](double share) {
         progress.update(share);

@@ -40,10 +40,11 @@ Json limits_json(const std::vector<Limit>& limits, const measure::MapDifference&
     Json json = Json::array();
     for (const Limit& limit : limits) {
         const double value = worst(*limit.figure, difference);
+        const bool comparable = !difference.structure.has_value();
         json.push_back({{"figure", limit.figure->name},
                         {"limit", limit.value},
-                        {"value", value},
-                        {"met", value <= limit.value}});
+                        {"value", comparable ? Json(value) : Json(nullptr)},
+                        {"met", comparable && value <= limit.value}});
     }
     return json;
 }
@@ -97,6 +98,8 @@ void write_sheet(const Arguments& arguments, const SphericalMap& first, const Sp
 }
 
 void compare(Arguments arguments) {
+    if (arguments.first == "-" && arguments.second == "-")
+        throw Error(ExitCode::usage, "A and B are both -: standard input holds one file only");
     if (arguments.warn.empty() && arguments.fail.empty()) arguments.fail = no_difference();
     if (!arguments.sheet.empty()) {
         const std::filesystem::path inputs[] = {arguments.first, arguments.second};

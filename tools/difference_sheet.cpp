@@ -48,11 +48,14 @@ Picture depth_difference(const Surface& a, const Surface& b) {
     });
 }
 
-Picture normal_difference(const Surface& a, const Surface& b) {
+Picture normal_difference(const Surface& a, const Surface& b, Mapping mapping) {
+    if (a.normal.empty() || b.normal.empty()) return {};
+    const Grid grid{mapping, a.depth.width, a.depth.height};
+    const auto normal = [&](const Surface& s, std::uint32_t x, std::uint32_t y) {
+        return to_double(decode_normal(s.normal.format, measure::nearest_element(s.normal, grid, {x, y})));
+    };
     return draw(a.depth, b.depth, has_depth, [&](std::uint32_t x, std::uint32_t y) {
-        const Vec3d na = to_double(decode_normal(a.normal.format, a.normal.at(x, y)));
-        const Vec3d nb = to_double(decode_normal(b.normal.format, b.normal.at(x, y)));
-        return heat_color(normal_heat, measure::angle_degrees(na, nb));
+        return heat_color(normal_heat, measure::angle_degrees(normal(a, x, y), normal(b, x, y)));
     });
 }
 
@@ -85,7 +88,7 @@ Picture difference_sheet(const SphericalMap& a, const SphericalMap& b, const std
                             measure::name(d.side),
                         {make_cell("first", color(sa), scale), make_cell("second", color(sb), scale),
                          make_cell("depth", depth_difference(sa, sb), scale),
-                         make_cell("normal", normal_difference(sa, sb), scale),
+                         make_cell("normal", normal_difference(sa, sb, a.parts[d.part].mapping), scale),
                          make_cell("colour", color_difference(sa, sb), scale)}});
     }
     return lay_out_sheet(title, heat_legend("first only", "second only"), rows, scale);

@@ -16,11 +16,12 @@ struct HeatScale {
     const char* unit;
 };
 
-constexpr HeatScale depth_heat{"distance", 1e-6, 1e-2, "R"};
+constexpr HeatScale depth_heat{"distance", 1e-6, 1, "R"};
 constexpr HeatScale normal_heat{"angle", 1e-2, 90, "deg"};
 constexpr HeatScale color_heat{"colour", 1, 255, "codes"};
 
-constexpr Rgb no_surface_color{0, 0, 0}, equal_color{70, 70, 76}, missing_color{255, 60, 60},
+// unknown_color is that of the sheet behind.
+constexpr Rgb no_surface_color{0, 0, 0}, unknown_color{30, 30, 34}, equal_color{70, 70, 76}, missing_color{255, 60, 60},
     extra_color{255, 60, 255};
 
 // viridis of log(value) between the ends of the scale; equal_color for 0.

@@ -30,8 +30,10 @@ Picture draw(const TexelErrors& errors, const HeatScale& scale, const std::vecto
 Picture draw_color(const TexelErrors& errors) {
     Picture picture(errors.color_grid.width, errors.color_grid.height, no_surface_color);
     for (std::size_t i = 0; i < errors.color.size(); ++i) {
-        const auto& [r, g, b] = errors.color[i];
-        if (!std::isnan(r)) picture.pixels[i] = heat_color(color_heat, double(std::max({r, g, b})));
+        const auto& [r, g, b, alpha] = errors.color[i];
+        if (!std::isnan(alpha))
+            picture.pixels[i] =
+                heat_color(color_heat, double(std::isnan(r) ? alpha : std::max({r, g, b, alpha})));
     }
     return picture;
 }
@@ -49,7 +51,7 @@ Picture draw_surface(const measure::Measurement& measurement, Mapping mapping, b
         float& value = worst[std::size_t(texel.y) * grid.width + texel.x];
         value = std::isnan(value) ? error.distance : std::max(value, error.distance);
     }
-    Picture picture(grid.width, grid.height, no_surface_color);
+    Picture picture(grid.width, grid.height, unknown_color); // between the points
     for (std::size_t i = 0; i < worst.size(); ++i)
         if (!std::isnan(worst[i])) picture.pixels[i] = heat_color(depth_heat, double(worst[i]));
     return picture;

@@ -23,7 +23,7 @@ MapFile open_map(const std::string& path);
 // Throws Error if `status` is not ok.
 void require(const container::Status& status, const std::string& file_name);
 
-// null if there is none.
+// null if there is none, or none that can be used.
 nlohmann::ordered_json parse_metadata(const SphericalMap& map);
 
 } // namespace spa::tools

@@ -21,17 +21,18 @@ Json member(const Json& json, const char* key) {
 std::filesystem::path source_beside(const MapFile& file) {
     const Json name = member(member(parse_metadata(file.map()), "source"), "name");
     if (file.name == "-" || !name.is_string()) return {};
-    // A name with a folder in it could point anywhere.
+    // A name with a folder in it could point anywhere; the system ends one at a zero.
     const std::filesystem::path plain = name.get<std::string>();
-    if (plain.empty() || plain.filename() != plain) return {};
+    if (plain.empty() || plain.filename() != plain || plain.string().find('\0') != std::string::npos)
+        return {};
     std::filesystem::path path = std::filesystem::path(file.name).parent_path() / plain;
     std::error_code ignored;
     return std::filesystem::is_regular_file(path, ignored) ? path : std::filesystem::path{};
 }
 
-std::vector<std::string> differing_files(const MapFile& file, const import::Report& source) {
+std::optional<std::vector<std::string>> differing_files(const MapFile& file, const import::Report& source) {
     const Json files = member(member(parse_metadata(file.map()), "source"), "files");
-    if (!files.is_array()) return {"(the metadata names no source)"};
+    if (!files.is_array()) return {};
     std::vector<std::string> differing;
     for (std::size_t i = 0; i < source.files.size(); ++i) {
         const Json hash = i < files.size() ? member(files[i], "xxh3") : Json(nullptr);

@@ -7,6 +7,7 @@
 #include "../formats/import/import.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,8 @@ namespace spa::tools {
 // none, or the file is standard input.
 std::filesystem::path source_beside(const MapFile& file);
 
-// Which of the files that the model was read from are not those that the map was baked from, by name; "(the
-// metadata names no source)" if there is nothing to compare with.
-std::vector<std::string> differing_files(const MapFile& file, const import::Report& source);
+// Which of the files that the model was read from are not those that the map was baked from, by name. None if
+// the metadata does not say what it was baked from.
+std::optional<std::vector<std::string>> differing_files(const MapFile& file, const import::Report& source);
 
 } // namespace spa::tools

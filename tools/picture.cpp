@@ -45,6 +45,7 @@ Picture reduce(const Picture& picture, std::uint32_t factor) {
 } // namespace
 
 Picture scale_to_fit(const Picture& picture, std::uint32_t max_width) {
+    if (picture.pixels.empty()) return {};
     if (picture.width <= max_width) return enlarge(picture, std::max(1U, max_width / picture.width));
     return reduce(picture, (picture.width + max_width - 1) / max_width);
 }

@@ -29,7 +29,7 @@ struct Picture {
 void paste(Picture& target, const Picture& source, std::uint32_t x, std::uint32_t y);
 
 // Whole-number scaling so that the width is at most `max_width`: pixels repeated if the picture is small,
-// averaged (in sRGB codes, good enough to look at) if it is large.
+// averaged (in sRGB codes, good enough to look at) if it is large. An empty picture stays empty.
 Picture scale_to_fit(const Picture& picture, std::uint32_t max_width);
 
 // Matplotlib's "viridis" (Smith & van der Walt, CC0) by linear interpolation of nine of its colours; t in

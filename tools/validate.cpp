@@ -38,9 +38,11 @@ constexpr std::array thresholds{
     Threshold{"--max-normal", "DEG", "Largest angle between a stored normal and the source's, in degrees",
               [](const Measurement& m) { return m.normal_angle.max; },
               [](const Measurement& m) { return m.worst_normal; }},
-    Threshold{"--max-color", "CODES", "Largest difference of red, green or blue, in codes of 255",
-              [](const Measurement& m) { return m.color_difference.max; },
-              [](const Measurement& m) { return m.worst_color; }},
+    Threshold{"--max-color", "CODES", "Largest difference of red, green, blue or coverage, in codes of 255",
+              [](const Measurement& m) { return std::max(m.color_difference.max, m.alpha_difference.max); },
+              [](const Measurement& m) {
+                  return m.alpha_difference.max > m.color_difference.max ? m.worst_alpha : m.worst_color;
+              }},
     Threshold{"--min-captured", "SHARE", "Smallest share of the source's area that the layers hold, 0 to 1",
               [](const Measurement& m) { return m.captured_area; }, nullptr},
     Threshold{"--min-coverage", "SHARE",
@@ -83,40 +85,64 @@ const nlohmann::ordered_json& bake_option(const nlohmann::ordered_json& metadata
     return options.is_object() && options.contains(name) ? options[name] : otherwise;
 }
 
+spa::import::Result read_source(const Arguments& arguments, const MapFile& file,
+                                const std::filesystem::path& path) {
+    try {
+        return import::read_model(path);
+    } catch (const Error& error) {
+        if (!arguments.source.empty()) throw;
+        throw Error(error.code(), std::string(error.what()) + " (the container " + file.name +
+                                      " is valid; this file beside it has the name of its source)");
+    }
+}
+
 void measure_source(const Arguments& arguments, const MapFile& file, const std::filesystem::path& path,
                     Validation& validation) {
     const std::string title = std::filesystem::path(file.name).filename().string();
     spa::import::Result source;
     {
         const SlowStep step("reading " + path.filename().string(), arguments.quiet);
-        source = import::read_model(path);
+        source = read_source(arguments, file, path);
+    }
+    if (!arguments.heat.empty()) {
+        std::vector<std::filesystem::path> inputs{file.name, path};
+        for (const import::SourceFile& used : source.report.files)
+            inputs.push_back(path.parent_path() / used.name);
+        check_output_file(arguments.heat, inputs);
     }
     validation.source = {path, differing_files(file, source.report)};
-    if (!validation.source->differing.empty()) {
+    if (validation.source->differing && !validation.source->differing->empty()) {
         std::string names;
-        for (const std::string& name : validation.source->differing)
+        for (const std::string& name : *validation.source->differing)
             names += (names.empty() ? "" : ", ") + name;
         std::cerr << "spa: warning: " << path.string() << " is not what " << file.name
                   << " was baked from: the hash differs for " << names << '\n';
     }
-    if (file.map().parts.size() > 1)
+    if (file.map().parts.size() > 1) {
+        if (!arguments.needs_source()) return;
         throw Error(ExitCode::unsupported, file.name + ": has " + std::to_string(file.map().parts.size()) +
                                                " parts; only maps of one part can be measured");
+    }
     const Part& part = file.map().parts.front();
     const auto metadata = parse_metadata(file.map());
     const auto samples = bake_option(metadata, "samples", 1);
+    const auto layers = bake_option(metadata, "layers", 0);
     const bool orbit = bake_option(metadata, "baker", "") == "orbit";
     measure::MeasureOptions options;
     if (samples.is_number_unsigned() && samples.get<std::uint64_t>() <= 8)
         options.color_samples = std::max(1U, samples.get<std::uint32_t>());
+    if (layers.is_number_unsigned() && layers.get<std::uint64_t>() <= 64)
+        options.layers = layers.get<std::uint32_t>();
     ProgressReport progress("measuring " + title, arguments.quiet);
     const InterruptGuard guard;
     validation.measurement = measure::measure_map(source.model, part, options, [&](double share) {
         progress.update(share);
         return interrupt_signal() == 0;
     });
-    // Colours filtered by a texture unit may round otherwise; the bakers' agreement allows as much.
-    validation.findings = measure::find_defects(part, *validation.measurement, orbit ? 1.0 : 0.0);
+    // Colours filtered by a texture unit may round otherwise; the bakers' agreement allows as much. Of several
+    // samples a texel those on edges are not looked at again.
+    const double color_tolerance = orbit ? 1.0 : options.color_samples > 1 ? 0.05 : 0.0;
+    validation.findings = measure::find_defects(part, *validation.measurement, color_tolerance);
     validation.thresholds = judge(arguments, *validation.measurement);
     if (arguments.heat.empty()) return;
     StagedFile staged(arguments.heat);
@@ -175,7 +201,9 @@ Verb validate_verb() {
             "such as a "
             "hole, a wrong radius, or a depth off by more than quantization. Each is named with its place. A "
             "damaged file ends with status 3. A source whose hash is not the one in the metadata is measured "
-            "all the same, with a warning.\n\n"
+            "all the same, with a warning. A source that is not found is an error if anything was asked of "
+            "it: a "
+            "threshold, a picture.\n\n"
             "--heat draws for every surface where it is wrong and by how much.",
         .examples = "$ spa validate boot.spa\n"
                     "$ spa validate boot.spa --format text\n"
@@ -194,7 +222,12 @@ Verb validate_verb() {
             for (std::size_t i = 0; i < thresholds.size(); ++i)
                 add_text(app, thresholds[i].option, thresholds[i].value_name, thresholds[i].description,
                          [arguments, i](const std::string& text) {
-                             arguments->limits[i] = parse_measure(thresholds[i].option, text);
+                             const std::string option = thresholds[i].option;
+                             const double limit = parse_measure(option, text);
+                             if (option.starts_with("--min") && limit > 1)
+                                 throw Error(ExitCode::usage,
+                                             option + ": '" + text + "' is above 1; a share is from 0 to 1");
+                             arguments->limits[i] = limit;
                          });
             add_choice<ReportFormat>(app, "--format", {ReportFormat::text, ReportFormat::json},
                                      "Report on standard output as text for people or as JSON",

@@ -30,9 +30,7 @@ Json coverage_json(const measure::CoverageFigures& c) {
             {"texels", c.texels},
             {"missing", c.missing},
             {"extra", c.extra},
-            {"ties", c.ties},
-            {"color_missing", c.color_missing},
-            {"color_extra", c.color_extra}};
+            {"ties", c.ties}};
 }
 
 std::string line(const char* label, const std::string& text) { return pad_right(label, 20) + text + "\n"; }
@@ -51,7 +49,8 @@ std::string surface_text(const Measurement& m) {
     text += columns("  captured", m.resolution_error, "R   (E_res)");
     text += columns("depth", m.quantization.error, "R   (E_quant)");
     text += columns("normal", m.normal_angle, "degrees");
-    return text + columns("colour", m.color_difference, "of 255");
+    text += columns("colour", m.color_difference, "of 255");
+    return text + columns("alpha", m.alpha_difference, "of 255");
 }
 
 std::string coverage_text(const measure::CoverageFigures& c) {
@@ -61,20 +60,22 @@ std::string coverage_text(const measure::CoverageFigures& c) {
 }
 
 std::string source_text(const SourceFacts& source) {
-    if (source.differing.empty()) return source.path.string() + ", the files the map was baked from";
+    if (!source.differing)
+        return source.path.string() + "; the metadata does not say what the map was baked from";
+    if (source.differing->empty()) return source.path.string() + ", the files the map was baked from";
     std::string text = source.path.string() + ", NOT what the map was baked from:";
-    for (const std::string& name : source.differing) text += " " + name;
+    for (const std::string& name : *source.differing) text += " " + name;
     return text;
 }
 
 } // namespace
 
 std::string Judged::sentence() const {
-    const bool at_least = option.starts_with("--min");
-    std::string text = option + " " + significant(limit, 6) + " is not met: measured " +
-                       significant(value, 6) + (at_least ? "" : " at most");
+    std::string text = option + " " + significant(limit, 6) +
+                       (option.starts_with("--min") ? " is not reached: " : " is exceeded: ") +
+                       significant(value, 6);
     if (at)
-        text += ", at layer " + std::to_string(at->layer) + " " + measure::name(at->side) + ", texel (" +
+        text += " at layer " + std::to_string(at->layer) + " " + measure::name(at->side) + ", texel (" +
                 std::to_string(at->texel.x) + ", " + std::to_string(at->texel.y) + ")";
     return text;
 }
@@ -88,6 +89,7 @@ Json figures_json(const Measurement& m) {
         {"captured_area", m.captured_area},
         {"normal_angle", distribution_json(m.normal_angle)},
         {"color_difference", distribution_json(m.color_difference)},
+        {"alpha_difference", distribution_json(m.alpha_difference)},
         {"coverage", coverage_json(m.coverage)},
         {"quantization",
          {{"bound", m.quantization.bound},
@@ -106,15 +108,16 @@ Json validate_json(const MapFile& file, const Validation& v) {
     Json source = nullptr;
     if (v.source) {
         source = {{"path", v.source->path.string()},
-                  {"matches", v.source->differing.empty()},
-                  {"differing", v.source->differing}};
+                  {"matches", v.source->differing ? Json(v.source->differing->empty()) : Json(nullptr)},
+                  {"differing", v.source->differing.value_or(std::vector<std::string>{})}};
     }
     Json worst = nullptr;
     if (v.measurement) {
         worst = {{"texel_distance", place_json(v.measurement->worst_distance)},
                  {"depth", place_json(v.measurement->worst_depth)},
                  {"normal_angle", place_json(v.measurement->worst_normal)},
-                 {"color_difference", place_json(v.measurement->worst_color)}};
+                 {"color_difference", place_json(v.measurement->worst_color)},
+                 {"alpha_difference", place_json(v.measurement->worst_alpha)}};
     }
     Json findings = Json::array();
     for (const measure::Finding& finding : v.findings)
@@ -141,7 +144,7 @@ std::string validate_text(const MapFile& file, const Validation& v) {
     std::string text = file.name + ": valid container\n";
     if (!v.source) return text + line("source", "none found beside it: not measured (--source)");
     text += line("source", source_text(*v.source));
-    if (!v.measurement) return text;
+    if (!v.measurement) return text + line("not measured", "only maps of one part can be");
     const Measurement& m = *v.measurement;
     text += surface_text(m);
     text += line("hausdorff", significant(m.hausdorff(), 3) + " R");

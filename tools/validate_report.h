@@ -26,12 +26,13 @@ struct Judged {
 
 struct SourceFacts {
     std::filesystem::path path;
-    std::vector<std::string> differing; // files that are not those the map was baked from (map_source.h)
+    // Files that are not those the map was baked from; none: the metadata does not say (map_source.h).
+    std::optional<std::vector<std::string>> differing;
 };
 
 struct Validation {
     std::optional<SourceFacts> source;               // none: the container check alone
-    std::optional<measure::Measurement> measurement; // with a source
+    std::optional<measure::Measurement> measurement; // with a source, of maps of one part
     std::vector<measure::Finding> findings;
     std::vector<Judged> thresholds;
 };

@@ -173,7 +173,17 @@ std::size_t Candidates::find_clipped(const Triangle& triangle, std::span<SampleR
     for (const std::uint32_t v : triangle.vertex) whole.push(to_double((*positions_)[v]));
     const double half = (double(grid_.width) - 1) / 2;
     std::size_t count = 0;
+    std::uint32_t some_positive = 0; // per axis: a corner with p[axis] >= 0, or <= 0
+    std::uint32_t some_negative = 0;
+    for (unsigned k = 0; k < whole.count; ++k) {
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            const double p = component(whole.corner[k], axis);
+            some_positive |= (p >= 0 ? 1U : 0U) << axis;
+            some_negative |= (p <= 0 ? 1U : 0U) << axis;
+        }
+    }
     for (std::uint32_t octant = 0; octant < 8; ++octant) {
+        if ((octant & ~some_negative) != 0 || (~octant & 7U & ~some_positive) != 0) continue;
         Polygon piece = whole;
         for (unsigned axis = 0; axis < 3 && piece.count > 0; ++axis) {
             piece = clip(piece, axis, (octant >> axis & 1U) != 0 ? -1.0 : 1.0);

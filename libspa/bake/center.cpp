@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace spa::bake {
@@ -68,6 +69,14 @@ Vec3d normal_around(const Model& model, Vec3d point, double radius) {
     return length(sum) > 0.1 ? normalize(sum) : first;
 }
 
+// The finest step of a float in [1/2, 1]: below it, positions at one place differ by how they were computed,
+// as where the two ends of a seam come from sin(2 pi) and sin(0). Rays would see through the crack between
+// them.
+double snap(double v) {
+    constexpr double steps = 1 << 24;
+    return std::nearbyint(v * steps) / steps;
+}
+
 } // namespace
 
 CenteredModel center_model(const Model& model, const PartFrame& part) {
@@ -86,7 +95,8 @@ CenteredModel center_model(const Model& model, const PartFrame& part) {
         tbb::blocked_range<std::size_t>(0, model.positions.size(), 4096), [&](const auto& range) {
             for (std::size_t v = range.begin(); v < range.end(); ++v) {
                 const Vec3d q = to_double(model.positions[v]) - part.center;
-                centered.positions[v] = to_float((identity ? q : to_frame * q) * (1 / part.radius));
+                const Vec3d p = (identity ? q : to_frame * q) * (1 / part.radius);
+                centered.positions[v] = to_float({snap(p.x), snap(p.y), snap(p.z)});
                 if (!identity)
                     centered.normals[v] = to_float(normalize(normal_to_frame * to_double(model.normals[v])));
             }

@@ -19,7 +19,7 @@ namespace spa::bake {
 // The model seen from the centre of a part. `model` outlives it.
 struct CenteredModel {
     const Model* model = nullptr;
-    std::vector<Vec3f> positions; // normalised space, one a vertex, |p| <= 1
+    std::vector<Vec3f> positions; // normalised space, one a vertex, |p| <= 1, multiples of 2^-24
     std::vector<Vec3f> normals;   // unit, frame space, one a vertex
     // The frame turns front faces into back faces (its determinant is negative): swap two corners.
     bool mirrored = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "intersect_block.h"
 
-// The inner loop is written so that compilers vectorise it, and compiled twice. No multiply-adds are
+// The loops are written so that compilers vectorise them, and compiled twice. No multiply-adds are
 // contracted, so both give the bits of the scalar intersect().
 #if defined(__x86_64__) && defined(__GNUC__)
 #define SPA_HAS_AVX2_CLONE 1
@@ -46,12 +46,27 @@ template <bool octahedral>
         intersect_rows<false>(setup, directions, rect, radius);
 }
 
+[[gnu::always_inline]] inline void keep_any(const double* radius, std::uint32_t count, std::uint32_t triangle,
+                                            OutermostHit* __restrict hits) {
+    for (std::uint32_t i = 0; i < count; ++i)
+        hits[i].keep_outermost(radius[i] > 0 ? OutermostHit(float(radius[i]), triangle) : OutermostHit());
+}
+
 void intersect_baseline(const RaySetup& setup, const SampleDirections& directions, const SampleRect& rect,
                         double* radius) {
     intersect_any(setup, directions, rect, radius);
 }
 
+void keep_baseline(const double* radius, std::uint32_t count, std::uint32_t triangle, OutermostHit* hits) {
+    keep_any(radius, count, triangle, hits);
+}
+
 #ifdef SPA_HAS_AVX2_CLONE
+[[gnu::target("avx2")]] void keep_avx2(const double* radius, std::uint32_t count, std::uint32_t triangle,
+                                       OutermostHit* hits) {
+    keep_any(radius, count, triangle, hits);
+}
+
 [[gnu::target("avx2")]] void intersect_avx2(const RaySetup& setup, const SampleDirections& directions,
                                             const SampleRect& rect, double* radius) {
     intersect_any(setup, directions, rect, radius);
@@ -66,6 +81,14 @@ void intersect_block(const RaySetup& setup, const SampleDirections& directions, 
     if (__builtin_cpu_supports("avx2")) return intersect_avx2(setup, directions, rect, block.radius.data());
 #endif
     intersect_baseline(setup, directions, rect, block.radius.data());
+}
+
+void keep_outermost_row(const double* radius, std::uint32_t count, std::uint32_t triangle,
+                        OutermostHit* hits) {
+#ifdef SPA_HAS_AVX2_CLONE
+    if (__builtin_cpu_supports("avx2")) return keep_avx2(radius, count, triangle, hits);
+#endif
+    keep_baseline(radius, count, triangle, hits);
 }
 
 } // namespace spa::bake

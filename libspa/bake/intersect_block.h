@@ -3,6 +3,7 @@
 #pragma once
 
 #include "candidates.h"
+#include "outermost_hit.h"
 #include "sample_rays.h"
 
 #include <algorithm>
@@ -23,9 +24,14 @@ struct RadiusBlock {
 void intersect_block(const RaySetup& setup, const SampleDirections& directions, const SampleRect& rect,
                      RadiusBlock& block);
 
-// visit(sample, radius) for every sample of a rectangle whose ray meets the triangle.
+// keep_outermost for `count` samples side by side; radius 0: none.
+void keep_outermost_row(const double* radius, std::uint32_t count, std::uint32_t triangle,
+                        OutermostHit* hits);
+
+// visit(first sample, radii, how many) for the rows of a rectangle of samples, in pieces. The radii may be
+// written to.
 template <class Visit>
-void each_hit(const RaySetup& setup, const SampleDirections& directions, const SampleRect& rect,
+void each_row(const RaySetup& setup, const SampleDirections& directions, const SampleRect& rect,
               Visit&& visit) {
     RadiusBlock block;
     for (std::uint32_t y0 = rect.y0; y0 <= rect.y1; y0 += RadiusBlock::rows) {
@@ -33,12 +39,9 @@ void each_hit(const RaySetup& setup, const SampleDirections& directions, const S
             const SampleRect part{x0, y0, std::min(rect.x1, x0 + RadiusBlock::columns - 1),
                                   std::min(rect.y1, y0 + RadiusBlock::rows - 1)};
             intersect_block(setup, directions, part, block);
-            for (std::uint32_t y = y0; y <= part.y1; ++y) {
-                const double* const radius = block.radius.data() + std::size_t(y - y0) * RadiusBlock::columns;
-                for (std::uint32_t x = x0; x <= part.x1; ++x) {
-                    if (radius[x - x0] > 0) visit(TexelIndex{x, y}, radius[x - x0]);
-                }
-            }
+            double* radius = block.radius.data();
+            for (std::uint32_t y = y0; y <= part.y1; ++y, radius += RadiusBlock::columns)
+                visit(TexelIndex{x0, y}, radius, part.x1 - x0 + 1);
         }
     }
 }

@@ -18,7 +18,7 @@ struct Interval {
 };
 
 SurfacePoint point(const Crossing& crossing, bool turn) {
-    return {crossing.radius, turn ? -crossing.normal : crossing.normal, crossing.color};
+    return {crossing.radius, turn ? -crossing.normal : crossing.normal, crossing.color, false};
 }
 
 // The shell's normals face away from it on both sides, whichever way the triangle is wound.
@@ -26,6 +26,7 @@ Interval thin_shell(const Crossing& crossing) {
     Interval shell;
     shell.outer = point(crossing, !crossing.front_facing);
     shell.inner = point(crossing, crossing.front_facing);
+    shell.inner.placed = true;
     // Half the radius if the shell is at the centre: the inner end must stay a surface.
     shell.inner.radius = std::max(crossing.radius - shell_thickness, crossing.radius / 2);
     return shell;

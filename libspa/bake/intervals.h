@@ -17,6 +17,7 @@ struct SurfacePoint {
     float radius = 0;
     Vec3f normal; // points out of the solid
     std::array<std::uint8_t, 4> color{};
+    bool placed = false; // the inner end of a thin shell, which lies below the surface by definition
 };
 
 // The stored surfaces over a grid: surface 2 k is the outer end of interval k, 2 k + 1 its inner end, each

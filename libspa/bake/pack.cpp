@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <utility>
 
 namespace spa::bake {
 namespace {
@@ -66,7 +65,7 @@ void pack_layers(const SurfaceGrid& shape, const SurfaceGrid& color, const Optio
         layer.outer = pack(outer);
         if (outer + 1 < shape.surfaces.size() && has_points(shape.surfaces[outer + 1]))
             layer.inner = pack(outer + 1);
-        part.layers.push_back(std::move(layer));
+        part.layers.push_back(layer);
     }
 }
 

@@ -19,15 +19,16 @@
 namespace spa::bake {
 namespace {
 
-// Calls found(sample, triangle, radius, front_facing) for every pair of sample and triangle that meet, in
-// parallel over triangles; a pair may come twice. begin() makes a `found` for each run of triangles.
+// Calls found(first sample, radii, count, triangle, front_facing) for pieces of rows: radius 0 where the ray
+// misses the triangle. In parallel over triangles; a sample may come twice. begin() makes a `found` for each
+// run of triangles.
 template <class Begin>
 void rasterize(const SampleRays& rays, ProgressMeter& meter, Begin&& begin) {
     const auto& triangles = rays.model.model->triangles;
     const Candidates candidates(rays.grid, rays.model.positions);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles.size(), 256), [&](const auto& range) {
         if (meter.cancelled()) return;
-        auto&& found = begin();
+        const auto found = begin();
         std::array<SampleRect, Candidates::max_rects> rects;
         for (auto i = std::uint32_t(range.begin()); i < range.end(); ++i) {
             const std::size_t count = candidates.find(triangles[i], rects);
@@ -35,12 +36,13 @@ void rasterize(const SampleRays& rays, ProgressMeter& meter, Begin&& begin) {
             const RaySetup setup(rays.model, triangles[i]);
             if (!setup.visible()) continue;
             const bool opaque = !rays.shader.needs_alpha(i);
-            for (std::size_t r = 0; r < count; ++r) {
-                each_hit(setup, rays.directions, rects[r], [&](TexelIndex at, double radius) {
-                    if (!opaque && !rays.visible(i, at, setup)) return;
-                    found(rays.owner(at), i, float(radius), setup.front_facing);
-                });
-            }
+            const auto visit = [&](TexelIndex at, double* radius, std::uint32_t length) {
+                for (std::uint32_t k = 0; !opaque && k < length; ++k) {
+                    if (radius[k] > 0 && !rays.visible(i, {at.x + k, at.y}, setup)) radius[k] = 0;
+                }
+                found(at, radius, length, i, setup.front_facing);
+            };
+            for (std::size_t r = 0; r < count; ++r) each_row(setup, rays.directions, rects[r], visit);
         }
         meter.add(range.size());
     });
@@ -60,24 +62,21 @@ void each_sample(const Grid& grid, Visit&& visit) {
     });
 }
 
-// A map a thread spares atomic operations, which take longer than all else where triangles are larger than
-// samples. Larger maps are not worth their memory.
+// A map for each thread spares atomic operations, which take longer than all else where triangles are larger
+// than samples. Larger maps are not worth their memory.
 constexpr std::size_t most_private_samples = std::size_t(1) << 20U;
 
 std::vector<OutermostHit> find_privately(const SampleRays& rays, ProgressMeter& meter) {
     using Hits = std::vector<OutermostHit>;
     tbb::enumerable_thread_specific<Hits> maps(sample_count(rays.grid));
     rasterize(rays, meter, [&] {
-        return [&hits = maps.local()](std::size_t sample, std::uint32_t triangle, float radius, bool) {
-            hits[sample].keep_outermost({radius, triangle});
+        return [row = maps.local().data(), width = rays.grid.width](
+                   TexelIndex at, const double* radius, std::uint32_t count, std::uint32_t triangle, bool) {
+            keep_outermost_row(radius, count, triangle, row + std::size_t(at.y) * width + at.x);
         };
     });
-    Hits result;
-    for (Hits& hits : maps) {
-        if (result.empty()) {
-            result = std::move(hits);
-            continue;
-        }
+    Hits result = std::move(maps.local());
+    for (const Hits& hits : maps) { // the one that was moved from is empty
         for (std::size_t s = 0; s < hits.size(); ++s) result[s].keep_outermost(hits[s]);
     }
     return result;
@@ -85,11 +84,14 @@ std::vector<OutermostHit> find_privately(const SampleRays& rays, ProgressMeter& 
 
 std::vector<OutermostHit> find_together(const SampleRays& rays, ProgressMeter& meter) {
     std::vector<OutermostHit> hits(sample_count(rays.grid));
-    const auto keep = [&](std::size_t sample, std::uint32_t triangle, float radius, bool) {
-        hits[sample].keep_outermost_atomically({radius, triangle});
-    };
-    rasterize(
-        rays, meter, [&]() -> auto& { return keep; });
+    rasterize(rays, meter, [&] {
+        return [&](TexelIndex at, const double* radius, std::uint32_t count, std::uint32_t triangle, bool) {
+            OutermostHit* const row = hits.data() + std::size_t(at.y) * rays.grid.width + at.x;
+            for (std::uint32_t i = 0; i < count; ++i) {
+                if (radius[i] > 0) row[i].keep_outermost_atomically({float(radius[i]), triangle});
+            }
+        };
+    });
     return hits;
 }
 
@@ -97,17 +99,21 @@ std::vector<OutermostHit> find_outermost(const SampleRays& rays, ProgressMeter& 
     std::vector<OutermostHit> hits = sample_count(rays.grid) <= most_private_samples
                                          ? find_privately(rays, meter)
                                          : find_together(rays, meter);
-    const auto copy_owner = [&](std::uint32_t x, std::uint32_t y) {
-        hits[std::size_t(y) * rays.grid.width + x] = hits[rays.owner({x, y})];
+    const auto hit_at = [&](TexelIndex at) -> OutermostHit& {
+        return hits[std::size_t(at.y) * rays.grid.width + at.x];
     };
-    for (std::uint32_t x = 0; x < rays.grid.width; ++x) {
-        copy_owner(x, 0);
-        copy_owner(x, rays.grid.height - 1);
-    }
-    for (std::uint32_t y = 0; y < rays.grid.height; ++y) {
-        copy_owner(0, y);
-        copy_owner(rays.grid.width - 1, y);
-    }
+    const auto each_border_sample = [&](auto&& visit) {
+        for (std::uint32_t x = 0; x < rays.grid.width; ++x) {
+            visit(TexelIndex{x, 0});
+            visit(TexelIndex{x, rays.grid.height - 1});
+        }
+        for (std::uint32_t y = 0; y < rays.grid.height; ++y) {
+            visit(TexelIndex{0, y});
+            visit(TexelIndex{rays.grid.width - 1, y});
+        }
+    };
+    each_border_sample([&](TexelIndex at) { hits[rays.owner(at)].keep_outermost(hit_at(at)); });
+    each_border_sample([&](TexelIndex at) { hit_at(at) = hits[rays.owner(at)]; });
     return hits;
 }
 
@@ -136,9 +142,13 @@ struct Found {
 CrossingGrid cast_all(const SampleRays& rays, ProgressMeter& meter) {
     tbb::enumerable_thread_specific<std::vector<Found>> lists;
     rasterize(rays, meter, [&] {
-        return [&list = lists.local()](std::size_t sample, std::uint32_t triangle, float radius,
-                                       bool front_facing) {
-            list.push_back({std::uint32_t(sample), triangle, radius, front_facing});
+        return [&list = lists.local(), &rays](TexelIndex at, const double* radius, std::uint32_t count,
+                                              std::uint32_t triangle, bool front_facing) {
+            for (std::uint32_t i = 0; i < count; ++i) {
+                if (!(radius[i] > 0)) continue;
+                list.push_back(
+                    {std::uint32_t(rays.owner({at.x + i, at.y})), triangle, float(radius[i]), front_facing});
+            }
         };
     });
     const std::size_t samples = sample_count(rays.grid);

@@ -3,11 +3,8 @@
 #pragma once
 
 #include "crossings.h"
+#include "outermost_hit.h"
 
-#include <algorithm>
-#include <atomic>
-#include <bit>
-#include <cstdint>
 #include <vector>
 
 namespace spa::bake {
@@ -17,31 +14,6 @@ namespace spa::bake {
 // O(triangles + covered samples) time; the result does not depend on options.threads.
 // Source: ../../docs/baking.md, "Radial".
 CrossingGrid cast_radial(const CenteredModel& model, const Grid& grid, const CastOptions& options);
-
-// Where the outermost crossing of a sample is. Of two that meet the same ray the larger one is outside.
-class OutermostHit {
-public:
-    OutermostHit() = default; // the ray meets nothing
-    // radius: r/R in (0, 1]. Positive floats order like their bits; of equal ones the smallest triangle wins.
-    OutermostHit(float radius, std::uint32_t triangle)
-        : key_(std::uint64_t(std::bit_cast<std::uint32_t>(radius)) << 32U | (0xFFFFFFFFU - triangle)) {}
-
-    [[nodiscard]] bool empty() const { return key_ == 0; }
-    [[nodiscard]] float radius() const { return std::bit_cast<float>(std::uint32_t(key_ >> 32U)); }
-    [[nodiscard]] std::uint32_t triangle() const { return 0xFFFFFFFFU - std::uint32_t(key_ & 0xFFFFFFFFU); }
-    void keep_outermost(OutermostHit other) { key_ = std::max(key_, other.key_); }
-    // The same while other threads do it too.
-    void keep_outermost_atomically(OutermostHit other) {
-        const std::atomic_ref<std::uint64_t> best(key_);
-        std::uint64_t seen = best.load(std::memory_order_relaxed);
-        while (seen < other.key_ &&
-               !best.compare_exchange_weak(seen, other.key_, std::memory_order_relaxed)) {
-        }
-    }
-
-private:
-    std::uint64_t key_ = 0;
-};
 
 // The first half of cast_radial with outermost_only, which is always set: where each sample's outermost
 // crossing is, one entry a sample, without normals and colours.

@@ -13,13 +13,16 @@ bool same_size(const ImageView& a, const ImageView& b) {
     return a.empty() || b.empty() || (a.width == b.width && a.height == b.height);
 }
 
-void compare_shape(const Surface& a, const Surface& b, double tolerance, SurfaceDifference& out) {
+void compare_shape(const Surface& a, const Surface& b, Mapping mapping, double tolerance,
+                   SurfaceDifference& out) {
     const ImageView& size = a.depth.empty() ? b.depth : a.depth;
+    const Grid grid{mapping, size.width, size.height};
+    const bool has_normals = !a.normal.empty() && !b.normal.empty();
     const auto depth = [](const Surface& s, std::uint32_t x, std::uint32_t y) {
         return s.depth.empty() ? 0.0 : double(decode_depth(s.depth.format, s.depth.at(x, y)));
     };
-    const auto normal = [](const Surface& s, std::uint32_t x, std::uint32_t y) {
-        return to_double(decode_normal(s.normal.format, s.normal.at(x, y)));
+    const auto normal = [&](const Surface& s, std::uint32_t x, std::uint32_t y) {
+        return to_double(decode_normal(s.normal.format, nearest_element(s.normal, grid, {x, y})));
     };
     std::vector<double> angles;
     for (std::uint32_t y = 0; y < size.height; ++y) {
@@ -34,17 +37,18 @@ void compare_shape(const Surface& a, const Surface& b, double tolerance, Surface
             if (difference > tolerance * (1 + 1e-6)) ++out.depth_differs;
             out.depth_mean += difference;
             out.depth_max = std::max(out.depth_max, difference);
+            if (!has_normals) continue;
             angles.push_back(angle_degrees(normal(a, x, y), normal(b, x, y)));
             out.normal_mean += angles.back();
             out.normal_max = std::max(out.normal_max, angles.back());
         }
     }
-    if (out.both > 0) {
+    if (out.both > 0) out.depth_mean /= double(out.both);
+    if (!angles.empty()) {
         const auto middle = angles.begin() + std::ptrdiff_t(angles.size() / 2);
         std::nth_element(angles.begin(), middle, angles.end());
         out.normal_median = *middle;
-        out.depth_mean /= double(out.both);
-        out.normal_mean /= double(out.both);
+        out.normal_mean /= double(angles.size());
     }
 }
 
@@ -94,6 +98,14 @@ Surface surface_of(const Part& part, std::size_t layer, Side side) {
     return side == Side::outer ? part.layers[layer].outer : part.layers[layer].inner;
 }
 
+const std::byte* nearest_element(const ImageView& image, const Grid& grid, TexelIndex sample) {
+    const Grid own{grid.mapping, image.width, image.height};
+    if (own == grid) return image.at(sample.x, sample.y);
+    const Vec2d position = position_of(own, sample_direction(grid, sample));
+    const TexelIndex at = wrap(own, std::llround(position.x), std::llround(position.y));
+    return image.at(at.x, at.y);
+}
+
 MapDifference compare(const SphericalMap& a, const SphericalMap& b, const CompareOptions& options) {
     MapDifference result;
     if (a.parts.size() != b.parts.size()) {
@@ -116,7 +128,8 @@ MapDifference compare(const SphericalMap& a, const SphericalMap& b, const Compar
                 const Surface sa = surface_of(pa, l, side);
                 const Surface sb = surface_of(pb, l, side);
                 if (sa.empty() && sb.empty()) continue;
-                if (!same_size(sa.depth, sb.depth) || !same_size(sa.color, sb.color)) {
+                if (!same_size(sa.depth, sb.depth) || !same_size(sa.color, sb.color) ||
+                    !same_size(sa.normal, sb.normal)) {
                     return {"the images of part " + std::to_string(p) + ", layer " + std::to_string(l) +
                                 " differ in size",
                             {},
@@ -126,7 +139,7 @@ MapDifference compare(const SphericalMap& a, const SphericalMap& b, const Compar
                 difference.part = p;
                 difference.layer = l;
                 difference.side = side;
-                compare_shape(sa, sb, options.depth_tolerance, difference);
+                compare_shape(sa, sb, pa.mapping, options.depth_tolerance, difference);
                 compare_color(sa, sb, difference);
                 result.surfaces.push_back(difference);
             }

@@ -17,8 +17,12 @@ const char* name(Side side);
 // Of a layer that the part does not have: an empty one.
 Surface surface_of(const Part& part, std::size_t layer, Side side);
 
-// The difference of one surface. Depth and normals are compared where both maps have a surface, colours where
-// both have coverage. Mean over nothing is 0.
+// The element of an image nearest to the direction of a sample of `grid`; the images of a surface may differ
+// in size. The image is not empty and has the grid's mapping.
+const std::byte* nearest_element(const ImageView& image, const Grid& grid, TexelIndex sample);
+
+// The difference of one surface. Depth and normals are compared where both maps have a surface (normals at
+// the samples of depth, unless one map has none), colours where both have coverage. Mean over nothing is 0.
 struct SurfaceDifference {
     std::uint32_t part = 0, layer = 0;
     Side side = Side::outer;

@@ -28,6 +28,31 @@ std::string place(const WorstTexel& at) {
            std::to_string(at.texel.x) + ", " + std::to_string(at.texel.y) + ")";
 }
 
+struct NamedFigure {
+    const char* name;
+    float ErrorFigures::*value;
+};
+constexpr NamedFigure figures[] = {
+    {"texel_distance_max", &ErrorFigures::texel_distance_max},
+    {"texel_distance_mean", &ErrorFigures::texel_distance_mean},
+    {"surface_distance_max", &ErrorFigures::surface_distance_max},
+    {"surface_distance_mean", &ErrorFigures::surface_distance_mean},
+    {"captured_area", &ErrorFigures::captured_area},
+    {"normal_angle_mean", &ErrorFigures::normal_angle_mean},
+    {"color_difference_mean", &ErrorFigures::color_difference_mean},
+    {"quantization_bound", &ErrorFigures::quantization_bound},
+};
+
+// Another program may spread its points otherwise. nullptr: all are as measured, or not in the file.
+const char* lying_figure(const ErrorFigures& written, const ErrorFigures& measured) {
+    for (const NamedFigure& figure : figures) {
+        const double w = double(written.*figure.value);
+        const double m = double(measured.*figure.value);
+        if (!std::isnan(w) && std::abs(w - m) > 0.1 * m + 1e-6) return figure.name;
+    }
+    return nullptr;
+}
+
 } // namespace
 
 std::vector<Finding> find_defects(const Part& part, const Measurement& m, double color_tolerance) {
@@ -74,6 +99,19 @@ std::vector<Finding> find_defects(const Part& part, const Measurement& m, double
                                 " of 255 on average; the worst, " + place(*m.worst_color) + ", by " +
                                 number(m.worst_color->value),
                             m.worst_color});
+    }
+    if (m.alpha_difference.mean > color_tolerance) {
+        findings.push_back({"alpha",
+                            "the coverage of colours is off by " + number(m.alpha_difference.mean) +
+                                " of 255 on average; the worst, " + place(*m.worst_alpha) + ", by " +
+                                number(m.worst_alpha->value),
+                            m.worst_alpha});
+    }
+    if (const char* const name = lying_figure(part.errors, error_figures(m))) {
+        findings.push_back(
+            {"figures",
+             std::string("the error figures in the file are not those measured, for one ") + name,
+             {}});
     }
     return findings;
 }

@@ -11,13 +11,14 @@
 namespace spa::measure {
 
 struct Finding {
-    const char* kind;             // "radius", "depth", "missing", "extra", "normal" or "color"
-    std::string message;          // one sentence with the figures and the place
+    const char* kind;    // "radius", "depth", "missing", "extra", "normal", "color", "alpha" or "figures"
+    std::string message; // one sentence with the figures and the place
     std::optional<WorstTexel> at; // the worst or the first place; none for the radius
 };
 
-// color_tolerance: the mean colour difference, in codes of 255, that is not a finding. 0 suits colours
-// filtered as the reference filters them (the radial baker); another texture unit rounds otherwise.
+// color_tolerance: the mean difference of colour and of alpha, in codes of 255, that is not a finding. 0
+// suits colours filtered as the reference filters them (the radial baker); another texture unit rounds
+// otherwise.
 std::vector<Finding> find_defects(const Part& part, const Measurement& measurement, double color_tolerance);
 
 } // namespace spa::measure

@@ -110,6 +110,19 @@ std::vector<SurfaceError> find_captured(const std::vector<SurfaceSample>& sample
     return result;
 }
 
+// Triangles that are points.
+MapSurface captured_points(const std::vector<SurfaceSample>& samples,
+                           const std::vector<SurfaceError>& errors) {
+    MapSurface result;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (!errors[i].captured) continue;
+        const auto v = std::uint32_t(result.positions.size());
+        result.positions.push_back(to_float(samples[i].position));
+        result.triangles.push_back({{v, v, v}});
+    }
+    return result;
+}
+
 void measure_surface(const Model& model, const Part& part, const Reference& reference,
                      const MeasureOptions& options, const bake::Progress& progress, Measurement& result) {
     const std::vector<SurfaceSample> samples = visible_samples(model, reference, options.surface_samples);
@@ -118,14 +131,18 @@ void measure_surface(const Model& model, const Part& part, const Reference& refe
     const MapSurface exact = exact_surface(reference.shape(), part.frame);
     const DistanceTo to_stored(stored);
     const DistanceTo to_exact(exact);
+    const MapSurface captured = captured_points(samples, result.surface);
+    const DistanceTo to_captured(captured);
     std::vector<double> distance(samples.size());
     std::vector<double> exact_distance(samples.size());
+    std::vector<double> star_distance(samples.size());
     bake::ProgressMeter meter(progress, samples.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), 256), [&](const auto& range) {
         if (meter.cancelled()) return;
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             distance[i] = to_stored(samples[i].position);
             exact_distance[i] = to_exact(samples[i].position);
+            if (!result.surface[i].captured) star_distance[i] = to_captured(samples[i].position);
         }
         meter.add(range.size());
     });
@@ -136,7 +153,7 @@ void measure_surface(const Model& model, const Part& part, const Reference& refe
     for (std::size_t i = 0; i < samples.size(); ++i) {
         SurfaceError& error = result.surface[i];
         error.distance = float(distance[i]);
-        (error.captured ? resolution : star).push_back(exact_distance[i]);
+        (error.captured ? resolution : star).push_back(error.captured ? exact_distance[i] : star_distance[i]);
     }
     result.captured_area = samples.empty() ? 0 : double(resolution.size()) / double(samples.size());
     result.surface_distance = distribution(std::move(distance));
@@ -165,6 +182,7 @@ void summarize(const Part& part, double scale, Measurement& result) {
     Values depth;
     Values normal;
     Values color;
+    Values alpha;
     CoverageFigures& coverage = result.coverage;
     QuantizationFigures& quantization = result.quantization;
     for (const TexelErrors& errors : result.texels) {
@@ -174,8 +192,6 @@ void summarize(const Part& part, double scale, Measurement& result) {
         const double normal_bound = normals.empty() ? 180 : normal_tolerance(normals.format);
         quantization.bound = std::max(quantization.bound, bound);
         coverage.texels += errors.state.size();
-        coverage.color_missing += errors.color_missing;
-        coverage.color_extra += errors.color_extra;
         for (std::size_t i = 0; i < errors.state.size(); ++i) {
             const TexelState state = errors.state[i];
             if (state == TexelState::tie) ++coverage.ties;
@@ -191,14 +207,17 @@ void summarize(const Part& part, double scale, Measurement& result) {
             normal.add(errors, errors.grid, i, double(errors.normal[i]));
         }
         for (std::size_t i = 0; i < errors.color.size(); ++i) {
-            for (const float difference : errors.color[i])
-                color.add(errors, errors.color_grid, i, difference);
+            for (unsigned c = 0; c < 3; ++c)
+                color.add(errors, errors.color_grid, i, double(errors.color[i][c]));
+            alpha.add(errors, errors.color_grid, i, double(errors.color[i][3]));
         }
     }
     result.texel_distance = distribution(std::move(distance.all));
     quantization.error = distribution(std::move(depth.all));
     result.normal_angle = distribution(std::move(normal.all));
     result.color_difference = distribution(std::move(color.all));
+    result.alpha_difference = distribution(std::move(alpha.all));
+    result.worst_alpha = alpha.worst;
     result.worst_distance = distance.worst;
     result.worst_depth = depth.worst;
     result.worst_normal = normal.worst;
@@ -218,7 +237,7 @@ Measurement measure_map(const Model& model, const Part& part, const MeasureOptio
     Measurement result;
     tbb::task_arena arena(bake::arena_concurrency(options.threads));
     arena.execute([&] {
-        const Reference reference(model, part, options.threads, between(0, 0.3));
+        const Reference reference(model, part, options.layers, options.threads, between(0, 0.3));
         result.source_radius = reference.source_radius();
         result.texels =
             texel_errors(part, reference, options.color_samples, options.threads, between(0.3, 0.6));

@@ -15,16 +15,16 @@ namespace spa::measure {
 struct MeasureOptions {
     std::uint32_t surface_samples = 100'000; // points on the model, each standing for the same area
     std::uint32_t color_samples = 1;         // as the colours were baked (bake::Options::samples)
-    unsigned threads = 0;                    // 0 = all cores; the result does not depend on it
+    std::uint32_t layers = 0; // as it was baked (bake::Options::layers): a map leaves out layers that no
+                              // sample met; 0: as many as it holds
+    unsigned threads = 0;     // 0 = all cores; the result does not depend on it
 };
 
 struct CoverageFigures {
-    std::uint64_t texels = 0;  // of all surfaces
-    std::uint64_t missing = 0; // without a surface where the model has one
-    std::uint64_t extra = 0;   // with a surface where the model has none
-    std::uint64_t ties = 0;    // whose direction meets an edge, where either answer is right
-    // Of the same for the colours' coverage.
-    std::uint64_t color_missing = 0, color_extra = 0;
+    std::uint64_t texels = 0;            // of all surfaces
+    std::uint64_t missing = 0;           // without a surface where the model has one
+    std::uint64_t extra = 0;             // with a surface where the model has none
+    std::uint64_t ties = 0;              // whose direction meets an edge, where either answer is right
     [[nodiscard]] double share() const { // of texels that agree with the model
         return texels == 0 ? 1 : 1 - double(missing + extra) / double(texels);
     }
@@ -60,15 +60,17 @@ struct Measurement {
     double captured_area = 0;      // share of the model's area that exact layers hold
     Distribution normal_angle;     // stored and exact normal, degrees
     Distribution color_difference; // stored and exact red, green, blue, in codes of 255
+    Distribution alpha_difference; // the same of the colours' coverage
     CoverageFigures coverage;
     QuantizationFigures quantization;
     std::uint64_t shell_ends = 0; // inner ends of thin shells, which texel_distance leaves out
-    // The parts of the error (algorithms: E_star, E_res, E_quant). star: surface_distance of the area that is
-    // not captured: what no resolution mends. resolution: that of the captured area, to the surface through
-    // exact depths: what more texels mend. quantization.error is the third: what more bits mend.
+    // The parts of the error (algorithms: E_star, E_res, E_quant). star: from points that are not
+    // captured to the closest that is: what no resolution mends. resolution: from captured points to the
+    // surface through exact depths: what more texels mend. quantization.error is the third: what more bits
+    // mend.
     Distribution star_error, resolution_error;
     std::uint64_t normals_above = 0; // normals off by more than their element format explains
-    std::optional<WorstTexel> worst_distance, worst_normal, worst_color, worst_depth;
+    std::optional<WorstTexel> worst_distance, worst_normal, worst_color, worst_alpha, worst_depth;
     std::optional<WorstTexel> first_missing, first_extra;
     std::vector<TexelErrors> texels;
     std::vector<SurfaceError> surface;

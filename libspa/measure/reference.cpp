@@ -25,10 +25,17 @@ double radius_about(const Model& model, Vec3d center, const Mat3& frame) {
 
 } // namespace
 
-Reference::Reference(const Model& model, const Part& part, unsigned threads, const bake::Progress& progress)
+Reference::Reference(const Model& model, const Part& part, std::uint32_t layers, unsigned threads,
+                     const bake::Progress& progress)
     : source_radius_(radius_about(model, part.center, part.frame)),
-      layers_(std::uint32_t(part.layers.size())),
-      outermost_only_(part.layers.size() == 1 && part.layers.front().inner.empty()), threads_(threads) {
+      layers_(std::max(layers, std::uint32_t(part.layers.size()))),
+      outermost_only_(layers_ == 1 && part.layers.front().inner.empty()), threads_(threads) {
+    const double ratio = part.radius / source_radius_;
+    if (!(ratio < 1000 && ratio > 1e-3)) {
+        throw Error(ExitCode::limits,
+                    "the map's radius is " + std::to_string(ratio) +
+                        " times that of the source about the same centre: it is of another object");
+    }
     model_ = std::make_unique<bake::CenteredModel>(
         bake::center_model(model, {part.center, part.frame, source_radius_}));
     scene_ = std::make_unique<trace::TriangleScene>(model_->positions, model.triangles);

@@ -17,11 +17,14 @@ namespace spa::measure {
 
 class Reference {
 public:
-    // The model seen from the centre of `part`, in its frame, with as many layers. Units: the radius of the
-    // model's own bounding sphere about that centre, whatever the part says (source_radius). model outlives
-    // this object; the part need not. threads: 0 = all cores. Throws Error{invalid_data} for a model of zero
-    // size, and bake::Cancelled.
-    Reference(const Model& model, const Part& part, unsigned threads, const bake::Progress& progress);
+    // The model seen from the centre of `part`, in its frame, with as many layers, or with `layers` if that
+    // is more. Units: the radius of the model's own bounding sphere about that centre, whatever the part says
+    // (source_radius). model outlives this object; the part need not. threads: 0 = all cores. Throws
+    // Error{invalid_data} for a model of zero size; Error{limits} if the part's radius is beyond a thousand
+    // times the model's or its thousandth (it is of another object, and distances would say nothing); and
+    // bake::Cancelled.
+    Reference(const Model& model, const Part& part, std::uint32_t layers, unsigned threads,
+              const bake::Progress& progress);
 
     // In frame units; equal to part.radius but for rounding if the part was baked from this model.
     [[nodiscard]] double source_radius() const { return source_radius_; }

@@ -26,7 +26,8 @@ namespace {
 using bake::SurfacePoint;
 
 constexpr float not_measured = std::numeric_limits<float>::quiet_NaN();
-constexpr unsigned tie_directions = 8;
+// As many as triangles are likely to meet in a vertex, such as the pole of a sphere.
+constexpr unsigned tie_directions = 32;
 
 std::array<CenterRay, tie_directions> directions_around(const Grid& grid, TexelIndex at, double radius) {
     const Vec3d u = normalize(sample_direction(grid, at));
@@ -57,6 +58,9 @@ public:
           normal_to_object_(transpose(inverse(part.frame))) {
         errors.layer = layer;
         errors.side = side;
+        // Normals of other directions than the depths' have no exact counterpart here.
+        if (surface_.normal.width != surface_.depth.width || surface_.normal.height != surface_.depth.height)
+            surface_.normal = {};
         errors.grid = {part.mapping, surface_.depth.width, surface_.depth.height};
         errors.color_grid = {part.mapping, surface_.color.width, surface_.color.height}; // 0 x 0 if absent
         const std::size_t texels = std::size_t(errors.grid.width) * errors.grid.height;
@@ -90,15 +94,15 @@ public:
     // the search.
     void measure_distance(std::size_t i) {
         const Stored s = stored(i);
-        if (!(s.radius > 0) || is_shell_end(i)) return;
+        if (!(s.radius > 0) || point(reference_.shape(), i).placed) return;
         const Vec3d u = normalize(sample_direction(errors.grid, texel(i)));
         const float along = errors.depth[i];
         const double bound = std::isnan(along) ? std::numeric_limits<double>::infinity()
                                                : double(along) * (1 + 1e-6) * length(frame_ * u) + 1e-5;
         const Vec3d position = frame_ * u * s.radius;
-        double distance = reference_.scene().closest_point(position, bound).distance;
-        if (!std::isfinite(distance)) distance = reference_.scene().closest_point(position).distance;
-        errors.distance[i] = float(distance);
+        trace::ClosestPoint closest = reference_.scene().closest_point(position, bound);
+        if (closest.triangle == no_index) closest = reference_.scene().closest_point(position);
+        errors.distance[i] = float(closest.distance);
     }
 
 private:
@@ -107,13 +111,6 @@ private:
     }
     [[nodiscard]] SurfacePoint point(const bake::SurfaceGrid& grid, std::size_t i) const {
         return index_ < grid.surfaces.size() ? grid.surfaces[index_][i] : SurfacePoint{};
-    }
-    // The inner end of a thin shell (bake/intervals.h) is placed, not found.
-    [[nodiscard]] bool is_shell_end(std::size_t i) const {
-        if (errors.side != Side::inner) return false;
-        const float outer = reference_.shape().surfaces[index_ - 1][i].radius;
-        const float inner = reference_.shape().surfaces[index_][i].radius;
-        return outer > 0 && inner == std::max(outer - bake::shell_thickness, outer / 2);
     }
     [[nodiscard]] Stored stored(std::size_t i) const {
         const TexelIndex at = texel(i);
@@ -140,7 +137,7 @@ private:
         errors.state[i] = tie ? TexelState::tie : state(s, p);
         if (!(s.radius > 0) || !(p.radius > 0)) return;
         errors.depth[i] = float(std::abs(s.radius - double(p.radius)));
-        errors.normal[i] = float(angle(s, p));
+        if (!surface_.normal.empty()) errors.normal[i] = float(angle(s, p));
     }
 
     const Reference& reference_;
@@ -152,15 +149,18 @@ private:
 
 using Texels = std::vector<std::size_t>;
 
-// The rays around the given texels, tie_directions each.
+// The rays around the given texels, tie_directions each. surfaces: along the texels' own directions.
 std::vector<CenterRay> rays_around(const Grid& grid, const Texels& texels,
-                                   const std::vector<SurfacePoint>& outermost) {
+                                   const bake::SurfaceGrid& surfaces) {
     std::vector<CenterRay> rays;
     rays.reserve(texels.size() * tie_directions);
     for (const std::size_t i : texels) {
         const TexelIndex at{std::uint32_t(i % grid.width), std::uint32_t(i / grid.width)};
-        const double radius = outermost[i].radius > 0 ? double(outermost[i].radius) : 1.0;
-        for (const CenterRay& ray : directions_around(grid, at, radius)) rays.push_back(ray);
+        // Far enough for the innermost too.
+        float radius = 1;
+        for (const auto& surface : surfaces.surfaces)
+            if (surface[i].radius > 0) radius = std::min(radius, surface[i].radius);
+        for (const CenterRay& ray : directions_around(grid, at, double(radius))) rays.push_back(ray);
     }
     return rays;
 }
@@ -191,7 +191,7 @@ void check_shape(std::vector<SurfaceCheck>& checks, const Reference& reference,
     }
     if (worth_a_second_look(disagreeing, grid)) {
         const bake::SurfaceGrid around =
-            reference.cast(grid, rays_around(grid, disagreeing, reference.shape().surfaces.front()), {});
+            reference.cast(grid, rays_around(grid, disagreeing, reference.shape()), {});
         for (std::size_t k = 0; k < disagreeing.size(); ++k) {
             for (SurfaceCheck& check : checks)
                 if (check.disagrees(disagreeing[k]))
@@ -204,95 +204,64 @@ void check_shape(std::vector<SurfaceCheck>& checks, const Reference& reference,
     });
 }
 
-using Rgb = std::array<float, 3>;
+using ColorError = TexelErrors::ColorError;
 
-Rgb color_difference(const bake::Rgba8& a, const std::byte* b) {
-    Rgb difference;
-    for (unsigned c = 0; c < 3; ++c) difference[c] = float(std::abs(int(a[c]) - std::to_integer<int>(b[c])));
-    return difference;
+float largest(const ColorError& e) { return std::isnan(e[0]) ? e[3] : std::max({e[0], e[1], e[2], e[3]}); }
+
+// exact, stored: sRGB and coverage, as in the file.
+ColorError color_error(const bake::Rgba8& exact, const std::byte* stored) {
+    ColorError error;
+    for (unsigned c = 0; c < 4; ++c)
+        error[c] = float(std::abs(int(exact[c]) - std::to_integer<int>(stored[c])));
+    if (exact[3] == 0 || stored[3] == std::byte{0}) error[0] = error[1] = error[2] = not_measured;
+    if (exact[3] == 0 && stored[3] == std::byte{0}) error[3] = not_measured;
+    return error;
 }
-float largest(const Rgb& difference) { return std::max({difference[0], difference[1], difference[2]}); }
 
 // What two texture units that filter alike may differ by.
 constexpr float color_rounding = 2;
 
-class ColorCheck {
-public:
-    ColorCheck(const ImageView& image, const std::vector<bake::Rgba8>& exact, TexelErrors& errors)
-        : image_(image), exact_(exact), errors_(errors) {
-        errors_.color.resize(exact.size(), {not_measured, not_measured, not_measured});
-    }
-
-    // Against the reference along the texel's own direction. False if they disagree.
-    bool check(std::size_t i) {
-        if (covered(i) && exact_[i][3] != 0) errors_.color[i] = color_difference(exact_[i], pixel(i));
-        if (!covered(i) && exact_[i][3] != 0) ++errors_.color_missing;
-        if (covered(i) && exact_[i][3] == 0) ++errors_.color_extra;
-        return error(i) == 0;
-    }
-
-    // Infinite where one has coverage and the other has none.
-    [[nodiscard]] float error(std::size_t i) const {
-        if (covered(i) != (exact_[i][3] != 0)) return std::numeric_limits<float>::infinity();
-        return covered(i) ? largest(errors_.color[i]) : 0;
-    }
-
-    // Takes the best of what lies around the texel, if it is better.
-    void check_around(std::size_t i, std::span<const SurfacePoint> around) {
-        float best = error(i);
-        const bool alone = std::isinf(best);
-        Rgb difference = errors_.color[i];
-        for (const SurfacePoint& p : around) {
-            const bool has_surface = p.radius > 0 && p.color[3] != 0;
-            if (has_surface != covered(i)) continue;
-            const Rgb d = has_surface ? color_difference(p.color, pixel(i))
-                                      : Rgb{not_measured, not_measured, not_measured};
-            const float e = has_surface ? largest(d) : 0;
-            if (!(e < best)) continue;
-            best = e;
-            difference = d;
-        }
-        if (alone && !std::isinf(best)) --(covered(i) ? errors_.color_extra : errors_.color_missing);
-        errors_.color[i] = difference;
-    }
-
-private:
-    [[nodiscard]] const std::byte* pixel(std::size_t i) const {
-        return image_.bytes.data() + i * element_size(ElementFormat::rgba8);
-    }
-    [[nodiscard]] bool covered(std::size_t i) const { return pixel(i)[3] != std::byte{0}; }
-    const ImageView& image_;
-    const std::vector<bake::Rgba8>& exact_;
-    TexelErrors& errors_;
-};
-
 void check_colors(const Part& part, std::vector<SurfaceCheck>& checks, const Reference& reference,
                   std::uint32_t samples, const bake::Progress& progress) {
-    bake::SurfaceGrid cast = reference.shape();
+    const bake::SurfaceGrid* cast = &reference.shape();
+    bake::SurfaceGrid own;
     for (SurfaceCheck& check : checks) {
         TexelErrors& errors = check.errors;
         const ImageView image = surface_of(part, errors.layer, errors.side).color;
         if (image.empty()) continue;
         const Grid fine = bake::fine_grid(errors.color_grid, samples);
-        if (fine != cast.grid) cast = reference.cast(fine, progress);
+        if (fine != cast->grid) {
+            own = reference.cast(fine, progress);
+            cast = &own;
+        }
         const std::vector<bake::Rgba8> exact =
-            bake::filter_color(cast.surfaces[check.index()], errors.color_grid, samples);
-        ColorCheck colors(image, exact, errors);
+            bake::filter_color(cast->surfaces[check.index()], errors.color_grid, samples);
+        const auto pixel = [&](std::size_t i) {
+            return image.bytes.data() + i * element_size(ElementFormat::rgba8);
+        };
         Texels disagreeing;
+        errors.color.reserve(exact.size());
         for (std::size_t i = 0; i < exact.size(); ++i) {
-            if (!colors.check(i)) disagreeing.push_back(i);
+            errors.color.push_back(color_error(exact[i], pixel(i)));
+            if (largest(errors.color[i]) > 0) disagreeing.push_back(i);
         }
         // Another texture unit rounds elsewhere; what is left then is what rounding does not explain.
         if (!worth_a_second_look(disagreeing, errors.color_grid))
-            std::erase_if(disagreeing, [&](std::size_t i) { return colors.error(i) <= color_rounding; });
+            std::erase_if(disagreeing,
+                          [&](std::size_t i) { return largest(errors.color[i]) <= color_rounding; });
         // A texel filtered from several samples is no single direction.
         if (samples > 1 || !worth_a_second_look(disagreeing, errors.color_grid)) continue;
-        const bake::SurfaceGrid around = reference.cast(
-            errors.color_grid, rays_around(errors.color_grid, disagreeing, cast.surfaces.front()), {});
+        const bake::SurfaceGrid around =
+            reference.cast(errors.color_grid, rays_around(errors.color_grid, disagreeing, *cast), {});
         for (std::size_t k = 0; k < disagreeing.size(); ++k) {
-            colors.check_around(
-                disagreeing[k],
-                std::span(around.surfaces[check.index()]).subspan(k * tie_directions, tie_directions));
+            ColorError& error = errors.color[disagreeing[k]];
+            for (std::size_t d = k * tie_directions; d < (k + 1) * tie_directions; ++d) {
+                const SurfacePoint& p = around.surfaces[check.index()][d];
+                const ColorError other =
+                    color_error(p.radius > 0 ? p.color : bake::Rgba8{}, pixel(disagreeing[k]));
+                // Not `<`: nothing to measure, since both have none, is best.
+                if (!(largest(other) >= largest(error))) error = other;
+            }
         }
     }
 }
@@ -323,6 +292,7 @@ std::vector<TexelErrors> texel_errors(const Part& part, const Reference& referen
         check_colors(part, checks, reference, color_samples, {});
     });
     std::vector<TexelErrors> result;
+    result.reserve(checks.size());
     for (SurfaceCheck& check : checks) result.push_back(std::move(check.errors));
     return result;
 }

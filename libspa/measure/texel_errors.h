@@ -29,12 +29,13 @@ struct TexelErrors {
     std::vector<float> distance; // to the mesh in space, in R; NaN too at the inner end of a thin shell,
                                  // which is where it is by definition and not on the mesh
     std::vector<float> depth;    // |stored - exact| along the direction, in R
-    std::vector<float> normal;   // angle in object space, degrees
+    std::vector<float> normal;   // angle in object space, degrees; NaN if the image has another size
     Grid color_grid;
-    // |difference| of red, green and blue in codes of 255, where both map and reference have coverage; NaN
-    // elsewhere.
-    std::vector<std::array<float, 3>> color;
-    std::uint64_t color_missing = 0, color_extra = 0; // texels that only the reference, only the map covers
+    // |difference| of red, green, blue and alpha in codes of 255; the first three are NaN where map or
+    // reference has no coverage, all four where both have none. As long as color_grid, or empty without an
+    // image.
+    using ColorError = std::array<float, 4>;
+    std::vector<ColorError> color;
 };
 
 // What rounding to float may add to the error of a stored depth, in R: positions are float in meshes, bakers
@@ -48,7 +49,7 @@ double normal_tolerance(ElementFormat format);
 // All surfaces of the part, outer before inner, layer by layer. color_samples: as the colours were baked
 // (bake/bake_options.h). Throws bake::Cancelled.
 //
-// A texel that disagrees with the reference is looked at again along eight directions around its own, at
+// A texel that disagrees with the reference is looked at again along 32 directions around its own, at
 // tie_distance: if one of them agrees, the direction meets an edge, where either surface is right. That is
 // not done where more than 1/8 of all texels disagree: no mesh has so many edges.
 // O(texels * log triangles).

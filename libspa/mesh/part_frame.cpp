@@ -19,6 +19,7 @@ namespace spa {
 namespace {
 
 constexpr double flat_ratio = 0.01;
+constexpr double largest_coordinate = 0x1p60; // formats/SPA.md, section 5
 
 struct Interval {
     double low = std::numeric_limits<double>::infinity();
@@ -189,6 +190,42 @@ Axes oriented_bounds(const Model& model, const UsedVertices& vertices, const Axe
 
 bool is_flat(const Axes& box) { return box.extent[2] < flat_ratio * box.extent[0]; }
 
+// Looks at a few triangles, which is enough for most models. The corners of all triangles lie within +-e of
+// the middle of the box, along its thinnest axis, so the variance of any set of corners along it is at most
+// e^2; and no extent is larger than half the diagonal of any box.
+bool surely_not_flat(const Model& model, const Axes& aligned) {
+    constexpr std::size_t most = 4096;
+    const std::size_t step = model.triangles.size() / most + 1;
+    std::array<std::array<double, 3>, 3> m{};
+    Vec3d sum;
+    double count = 0;
+    for (std::size_t t = 0; t < model.triangles.size(); t += step) {
+        const Vec3d q = to_double(model.positions[model.triangles[t].vertex[0]]) - aligned.center;
+        const std::array<double, 3> p{q.x, q.y, q.z};
+        for (unsigned i = 0; i < 3; ++i) {
+            for (unsigned j = 0; j < 3; ++j) m[i][j] += p[i] * p[j];
+        }
+        sum = sum + q;
+        count += 1;
+    }
+    const std::array<double, 3> mean{sum.x / count, sum.y / count, sum.z / count};
+    for (unsigned i = 0; i < 3; ++i) {
+        for (unsigned j = 0; j < 3; ++j) m[i][j] = m[i][j] / count - mean[i] * mean[j];
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vec3d& v : eigenvectors(m)) {
+        const std::array<double, 3> p{v.x, v.y, v.z};
+        double variance = 0;
+        for (unsigned i = 0; i < 3; ++i) {
+            for (unsigned j = 0; j < 3; ++j) variance += p[i] * m[i][j] * p[j];
+        }
+        least = std::min(least, variance);
+    }
+    const double half_diagonal = length(Vec3d{aligned.extent[0], aligned.extent[1], aligned.extent[2]});
+    const double clearly = 2 * flat_ratio * half_diagonal; // whatever rounding did
+    return least > clearly * clearly;
+}
+
 Vec3d mean_normal(const Model& model) {
     Vec3d sum;
     for (const Triangle& triangle : model.triangles) {
@@ -211,6 +248,8 @@ Vec3d bounds_center(const Model& model, bool& moved_off_surface) {
     const UsedVertices vertices(model);
     const Axes aligned = box_along(vertices, coordinate_axes);
     const Vec3d center = aligned.center;
+    moved_off_surface = false;
+    if (surely_not_flat(model, aligned)) return center;
     const Axes box = oriented_bounds(model, vertices, aligned);
     moved_off_surface = is_flat(box);
     if (!moved_off_surface) return center;
@@ -246,6 +285,13 @@ PartFrame make_part_frame(const Model& model, Vec3d center, bool affine) {
         throw Error(
             ExitCode::invalid_data,
             "the model has no extent: all its triangles lie in one point, so there is nothing to bake");
+    }
+    const double farthest =
+        std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), part.radius});
+    if (farthest > largest_coordinate || part.radius < 1 / largest_coordinate) {
+        throw Error(ExitCode::invalid_data,
+                    "the model is too large or too small to be stored: coordinates may be up to 2^60 and its "
+                    "radius down to 2^-60; scale it");
     }
     return part;
 }

@@ -169,7 +169,7 @@ ClosestPoint TriangleScene::closest_point(Vec3d query, double max_distance) cons
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(state_->scene.get(), &point, &context, visit, &search);
-    return search.best;
+    return search.best.triangle == no_index ? ClosestPoint{} : search.best;
 }
 
 } // namespace spa::trace

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -328,6 +330,45 @@ TEST(Bake, NothingToBakeIsAnError) {
 
 TEST(Bake, CancellingThrows) {
     EXPECT_THROW(bake_model(test::random_soup(3000, 1), small(), [](double) { return false; }), Cancelled);
+}
+
+// A sphere as modelling programs write it: a column of vertices at either end of the seam and a ring of them
+// at each pole, from sines of multiples of pi that are not quite 0.
+TEST(Bake, SeamsWithRoundingNoiseAreClosed) {
+    constexpr std::uint32_t columns = 32;
+    constexpr std::uint32_t rows = 16;
+    Model model = test::empty_model();
+    for (std::uint32_t y = 0; y <= rows; ++y) {
+        for (std::uint32_t x = 0; x <= columns; ++x) {
+            const double phi = 2 * std::numbers::pi * x / columns;
+            const double theta = std::numbers::pi * y / rows;
+            const Vec3d p{-std::cos(phi) * std::sin(theta), std::cos(theta), std::sin(phi) * std::sin(theta)};
+            model.positions.push_back(to_float(p));
+            model.normals.push_back(to_float(normalize(p)));
+        }
+    }
+    for (std::uint32_t y = 0; y < rows; ++y) {
+        for (std::uint32_t x = 0; x < columns; ++x) {
+            const std::uint32_t a = y * (columns + 1) + x;
+            const std::uint32_t b = a + columns + 1;
+            model.triangles.push_back({{a, b, b + 1}});
+            model.triangles.push_back({{a, b + 1, a + 1}});
+        }
+    }
+    model.triangle_materials.resize(model.triangles.size(), 0);
+    ASSERT_NE(model.positions[columns * 1 + rows / 2 * (columns + 1)],
+              model.positions[rows / 2 * (columns + 1)]);
+    for (const std::uint32_t size : {65U, 129U, 257U}) {
+        Options options;
+        options.grid = options.color_grid = {Mapping::octahedral, size, size};
+        const Result baked = bake_model(model, options);
+        EXPECT_EQ(baked.report.layers.at(0).outer_coverage, 1);
+        EXPECT_EQ(baked.report.thin_samples, 0U);
+        const ImageView& depth = baked.map.map.parts[0].layers[0].outer.depth;
+        for (std::uint32_t y = 0; y < size; ++y)
+            for (std::uint32_t x = 0; x < size; ++x)
+                ASSERT_GT(decode_depth(depth.format, depth.at(x, y)), 0.98) << x << " " << y;
+    }
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The radial baker against brute force: every ray against every triangle, by another formula.
+#include "../../libspa/bake/candidates.h"
 #include "../../libspa/bake/center.h"
 #include "../../libspa/bake/radial.h"
 #include "../support/shapes.h"
@@ -101,6 +102,35 @@ TEST(Radial, DenseSpheresEqualBruteForce) {
 }
 
 // Hard case 31: triangles that hold a pole or an axis, or span more than 90 degrees, leave no hole.
+// Positions on the map are approximate; what they cost must be covered on maps of any size.
+TEST(Radial, CandidatesHoldTheSamplesUnderTheirCorners) {
+    for (const Grid& grid : {Grid{Mapping::latlong, 16384, 8192}, Grid{Mapping::latlong, 640, 480},
+                             Grid{Mapping::latlong, 3, 5000}, Grid{Mapping::octahedral, 8193, 8193}}) {
+        std::vector<Vec3f> positions;
+        std::vector<TexelIndex> samples;
+        for (std::uint32_t i = 0; i < 20000; ++i) {
+            samples.push_back({(i * 2654435761U >> 8U) % grid.width, (i * 40503U >> 3U) % grid.height});
+            const Vec3d u = normalize(sample_direction(grid, samples.back()));
+            // Around the sample and much smaller than one.
+            const Vec3d side = normalize(cross(u, Vec3d{0.3, 0.5, 0.8})) * 1e-6;
+            for (const Vec3d& p :
+                 {u + side, u - side * 0.5 + cross(u, side), u - side * 0.5 - cross(u, side)})
+                positions.push_back(to_float(p * 0.7));
+        }
+        const Candidates candidates(grid, positions);
+        for (std::uint32_t i = 0; i < samples.size(); ++i) {
+            std::array<SampleRect, Candidates::max_rects> rects;
+            const std::size_t count = candidates.find({{3 * i, 3 * i + 1, 3 * i + 2}}, rects);
+            const TexelIndex at = samples[i];
+            ASSERT_TRUE(std::any_of(rects.begin(), rects.begin() + std::ptrdiff_t(count),
+                                    [&](const SampleRect& r) {
+                                        return at.x >= r.x0 && at.x <= r.x1 && at.y >= r.y0 && at.y <= r.y1;
+                                    }))
+                << at.x << ' ' << at.y << " of " << grid.width << 'x' << grid.height;
+        }
+    }
+}
+
 TEST(Radial, HugeTrianglesLeaveNoHole) {
     Model model = test::empty_model();
     const Vec3f a{0, 9, 0.01F};

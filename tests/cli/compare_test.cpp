@@ -69,6 +69,18 @@ TEST_F(CompareVerb, OtherSizesCannotBeCompared) {
     EXPECT_EQ(report["comparable"], false);
 }
 
+TEST_F(CompareVerb, ASurfaceThatOneMapLacksCanBeDrawn) {
+    run({"bake", "boot.glb", "-o", "one.spa", "--size", "32", "--layers", "1"});
+    for (const auto& [first, second] : {std::pair{"one.spa", "a.spa"}, {"a.spa", "one.spa"}}) {
+        const Outcome outcome = run({"compare", first, second, "--sheet", "d.png"});
+        EXPECT_EQ(outcome.exit_code, 6) << outcome.signal;
+        EXPECT_TRUE(exists("d.png"));
+        std::filesystem::remove(folder_.path() / "d.png");
+    }
+}
+
+TEST_F(CompareVerb, StandardInputHoldsOneFile) { EXPECT_EQ(run({"compare", "-", "-"}).exit_code, 1); }
+
 TEST_F(CompareVerb, WrongLimitsAreUsageErrors) {
     for (const char* const limit :
          {"depth=1", "depth_max", "depth_max=", "depth_max=x", "depth_max=-1", "", "depth_max=1,"}) {

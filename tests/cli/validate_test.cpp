@@ -69,7 +69,7 @@ TEST_F(ValidateVerb, EveryThresholdIsJudged) {
                                               {"--max-surface-distance", "1", "1e-3"},
                                               {"--max-normal", "1", "0"},
                                               {"--min-captured", "0.5", "0.9"},
-                                              {"--min-coverage", "1", "1.1"}}) {
+                                              {"--min-captured", "0", "1"}}) {
         EXPECT_EQ(validate({"torus.spa", option, met}).exit_code, 0) << option;
         const Outcome outcome = validate({"torus.spa", option, missed});
         EXPECT_EQ(outcome.exit_code, 6) << option;
@@ -78,6 +78,10 @@ TEST_F(ValidateVerb, EveryThresholdIsJudged) {
     EXPECT_EQ(validate({"torus.spa", "--max-color", "0"}).exit_code, 0);
     EXPECT_EQ(validate({"torus.spa", "--max-color", "-1"}).exit_code, 1);
     EXPECT_EQ(validate({"torus.spa", "--max-normal", "nan"}).exit_code, 1);
+    EXPECT_EQ(validate({"torus.spa", "--min-coverage", "1"}).exit_code, 0);
+    EXPECT_EQ(validate({"torus.spa", "--min-coverage", "1.1"}).exit_code, 1);
+    EXPECT_EQ(validate({"torus.spa", "--heat", ""}).exit_code, 1);
+    EXPECT_EQ(validate({"torus.spa", "--heat", "torus.glb"}).exit_code, 1) << "the source, found beside it";
 }
 
 TEST_F(ValidateVerb, ADefectIsNamed) {

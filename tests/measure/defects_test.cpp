@@ -130,6 +130,20 @@ TEST_F(PlantedDefect, AColorOffByOne) {
     EXPECT_EQ(only_finding().at->value, 1);
 }
 
+TEST_F(PlantedDefect, CoverageThatIsGone) {
+    test::texel(baked_.map, outer().color, at_)[3] = std::byte{0};
+    expect("alpha", at_);
+    EXPECT_EQ(only_finding().at->value, 255);
+}
+
+TEST_F(PlantedDefect, FiguresThatLie) {
+    Part& part = baked_.map.map.parts[0];
+    part.errors = error_figures(measure_map(model_, part, {2000, 1, 0}));
+    EXPECT_TRUE(findings_of(model_, baked_).empty());
+    part.errors.surface_distance_max /= 2;
+    EXPECT_STREQ(only_finding().kind, "figures");
+}
+
 TEST_F(PlantedDefect, AWrongRadius) {
     baked_.map.map.parts[0].radius *= 1.01;
     const std::vector<Finding> findings = findings_of(model_, baked_);
@@ -147,6 +161,29 @@ TEST_F(PlantedDefect, AWrongCenter) {
     const Measurement m = measure_map(model_, part, {2000, 1, 0});
     EXPECT_NEAR(m.texel_distance.max, 0.01, 0.001);
     EXPECT_FALSE(find_defects(part, m, 0).empty());
+}
+
+// Other programs may leave out images, or give them sizes of their own (SPA.md, sections 7 and 8).
+TEST(OtherWriters, ImagesThatAreAbsentOrOfAnotherSize) {
+    const Model model = test::sample_model("torus");
+    const bake::Result baked = bake::bake_model(model, test::small_options());
+    bake::Options small = test::small_options();
+    small.grid = small.color_grid = {Mapping::octahedral, 17, 17};
+    const bake::Result other = bake::bake_model(model, small);
+    const ImageView small_normal = other.map.map.parts[0].layers[0].inner.normal;
+    for (const ImageView& normal : {ImageView{}, small_normal}) {
+        SphericalMap map = baked.map.map;
+        map.parts[0].layers[0].inner.normal = normal;
+        map.parts[0].layers[0].inner.color = {};
+        const Measurement m = measure_map(model, map.parts[0], {100, 1, 0});
+        EXPECT_TRUE(find_defects(map.parts[0], m, 0).empty());
+        const MapDifference same = compare(map, map);
+        ASSERT_EQ(same.surfaces.size(), 2U);
+        EXPECT_EQ(same.surfaces[1].normal_max, 0);
+    }
+    SphericalMap absent = baked.map.map;
+    absent.parts[0].layers[0].inner.normal = {};
+    EXPECT_EQ(compare(absent, baked.map.map).surfaces.at(1).normal_max, 0);
 }
 
 // On an edge either surface is right: that is a tie, not a defect.

@@ -77,6 +77,7 @@ TEST(TriangleScene, ClosestPointsAreThoseOfBruteForce) {
         EXPECT_NEAR(found.distance, best, 1e-12);
         EXPECT_NEAR(length(found.point - p), found.distance, 1e-12);
         EXPECT_EQ(scene.closest_point(p, best * 0.5).triangle, no_index);
+        EXPECT_TRUE(std::isinf(scene.closest_point(p, best * 0.5).distance));
         EXPECT_NEAR(scene.closest_point(p, best * 1.5 + 1e-6).distance, best, 1e-12);
     }
 }
