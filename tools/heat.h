@@ -21,8 +21,8 @@ constexpr HeatScale normal_heat{"angle", 1e-2, 90, "deg"};
 constexpr HeatScale color_heat{"colour", 1, 255, "codes"};
 
 // unknown_color is that of the sheet behind.
-constexpr Rgb no_surface_color{0, 0, 0}, unknown_color{30, 30, 34}, equal_color{70, 70, 76}, missing_color{255, 60, 60},
-    extra_color{255, 60, 255};
+constexpr Rgb no_surface_color{0, 0, 0}, unknown_color{30, 30, 34}, equal_color{70, 70, 76},
+    missing_color{255, 60, 60}, extra_color{255, 60, 255};
 
 // viridis of log(value) between the ends of the scale; equal_color for 0.
 Rgb heat_color(const HeatScale& scale, double value);

@@ -73,8 +73,8 @@ Vec3d normal_around(const Model& model, Vec3d point, double radius) {
 // as where the two ends of a seam come from sin(2 pi) and sin(0). Rays would see through the crack between
 // them.
 double snap(double v) {
-    constexpr double steps = 1 << 24;
-    return std::nearbyint(v * steps) / steps;
+    constexpr double steps_of_2_to_minus_24 = 0x1.8p28; // the sum's last bit is worth that much
+    return (v + steps_of_2_to_minus_24) - steps_of_2_to_minus_24;
 }
 
 } // namespace
