@@ -39,8 +39,8 @@ MapFile open_map(const std::string& path) {
 
 nlohmann::ordered_json parse_metadata(const SphericalMap& map) {
     if (map.metadata.empty()) return nullptr;
-    // What the container's check lets pass and JSON for C++ does not hold (1e999, half a surrogate pair) is as
-    // good as none.
+    // What the container's check lets pass and JSON for C++ does not hold (1e999, half a surrogate pair) is
+    // as good as none.
     nlohmann::ordered_json json = nlohmann::ordered_json::parse(map.metadata, nullptr, false);
     return json.is_discarded() ? nlohmann::ordered_json(nullptr) : json;
 }

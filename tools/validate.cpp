@@ -139,8 +139,8 @@ void measure_source(const Arguments& arguments, const MapFile& file, const std::
         progress.update(share);
         return interrupt_signal() == 0;
     });
-    // Colours filtered by a texture unit may round otherwise; the bakers' agreement allows as much. Of several
-    // samples a texel those on edges are not looked at again.
+    // Colours filtered by a texture unit may round otherwise; the bakers' agreement allows as much. Of
+    // several samples a texel those on edges are not looked at again.
     const double color_tolerance = orbit ? 1.0 : options.color_samples > 1 ? 0.05 : 0.0;
     validation.findings = measure::find_defects(part, *validation.measurement, color_tolerance);
     validation.thresholds = judge(arguments, *validation.measurement);

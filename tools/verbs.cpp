@@ -16,7 +16,8 @@ Verb bench_verb();
 Verb help_verb();
 
 std::span<const Verb> verbs() {
-    static const std::array table{bake_verb(), inspect_verb(), extract_verb(), validate_verb(), compare_verb(), sample_verb(), bench_verb(), help_verb()};
+    static const std::array table{bake_verb(),    inspect_verb(), extract_verb(), validate_verb(),
+                                  compare_verb(), sample_verb(),  bench_verb(),   help_verb()};
     return table;
 }
 
