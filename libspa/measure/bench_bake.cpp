@@ -199,7 +199,8 @@ private:
         views_chosen_ = true;
         const double timed = double(sample_count(more_views(doublings_)));
         const double once = double(sample_count(few_views));
-        const double a_view = (more - few) / (timed - once);
+        // On a tiny map the larger number may have been the quicker one, by chance.
+        const double a_view = std::max(0.0, more - few) / (timed - once);
         add(Caster::naive, threads, Part::crossings,
             few + a_view * (double(sample_count(options_.grid)) - once));
     }
