@@ -31,10 +31,16 @@ spa::import::Result read_asset(const BakeArguments& arguments) {
 
 bake::Result bake_with_progress(const BakeArguments& arguments, const Model& model) {
     ProgressReport progress("baking " + arguments.input.filename().string(), arguments.quiet);
-    return bake::bake_model(model, arguments.options, [&progress](double share) {
-        progress.update(share);
-        return interrupt_signal() == 0;
-    });
+    try {
+        return bake::bake_model(model, arguments.options, [&progress](double share) {
+            progress.update(share);
+            return interrupt_signal() == 0;
+        });
+    } catch (const Error& error) {
+        // The baker knows a model, not the file that it came from.
+        if (error.code() != ExitCode::invalid_data) throw;
+        throw Error(error.code(), arguments.input.string() + ": " + error.what());
+    }
 }
 
 measure::Measurement measure_with_progress(const BakeArguments& arguments, const Model& model,
