@@ -15,8 +15,6 @@ namespace spa::tools {
 
 namespace {
 
-using measure::Side;
-
 // Draws color(x, y) where both images have something, marks where one alone has.
 template <class Has, class Color>
 Picture draw(const ImageView& a, const ImageView& b, Has has, Color color) {
