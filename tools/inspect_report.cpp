@@ -14,21 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using container::SectionEntry;
 
-struct ErrorFigure {
-    const char* name;
-    float ErrorFigures::*value;
-};
-constexpr ErrorFigure error_figures[] = {
-    {"texel_distance_max", &ErrorFigures::texel_distance_max},
-    {"texel_distance_mean", &ErrorFigures::texel_distance_mean},
-    {"surface_distance_max", &ErrorFigures::surface_distance_max},
-    {"surface_distance_mean", &ErrorFigures::surface_distance_mean},
-    {"captured_area", &ErrorFigures::captured_area},
-    {"normal_angle_mean", &ErrorFigures::normal_angle_mean},
-    {"color_difference_mean", &ErrorFigures::color_difference_mean},
-    {"quantization_bound", &ErrorFigures::quantization_bound},
-};
-
 double ratio(std::uint64_t raw, std::uint64_t stored) {
     return stored == 0 ? 1 : double(raw) / double(stored);
 }
@@ -87,7 +72,7 @@ Json vector_json(Vec3d v) { return Json::array({v.x, v.y, v.z}); }
 
 Json part_json(const Part& part) {
     Json errors = Json::object();
-    for (const ErrorFigure& figure : error_figures)
+    for (const ErrorFigureField& figure : error_figure_fields)
         if (const float value = part.errors.*figure.value; !std::isnan(value)) errors[figure.name] = value;
     Json layers = Json::array();
     for (const Layer& layer : part.layers)
@@ -142,7 +127,7 @@ std::string surface_text(const Surface& surface, Mapping mapping) {
 
 std::string errors_text(const ErrorFigures& errors) {
     std::string text;
-    for (const ErrorFigure& figure : error_figures)
+    for (const ErrorFigureField& figure : error_figure_fields)
         if (const float value = errors.*figure.value; !std::isnan(value))
             text += (text.empty() ? "" : "\n" + pad_right("", label_width)) + pad_right(figure.name, 23) +
                     significant(double(value), 3);

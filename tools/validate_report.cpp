@@ -74,9 +74,7 @@ std::string Judged::sentence() const {
     std::string text = option + " " + significant(limit, 6) +
                        (option.starts_with("--min") ? " is not reached: " : " is exceeded: ") +
                        significant(value, 6);
-    if (at)
-        text += " at layer " + std::to_string(at->layer) + " " + measure::name(at->side) + ", texel (" +
-                std::to_string(at->texel.x) + ", " + std::to_string(at->texel.y) + ")";
+    if (at) text += " at " + measure::place(*at);
     return text;
 }
 

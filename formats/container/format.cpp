@@ -14,14 +14,6 @@ bool all_zero(std::span<const std::byte> bytes) {
     return std::all_of(bytes.begin(), bytes.end(), [](std::byte b) { return b == std::byte{0}; });
 }
 
-// The fields of ErrorFigures in file order.
-constexpr std::array<float ErrorFigures::*, 8> error_fields{
-    &ErrorFigures::texel_distance_max,    &ErrorFigures::texel_distance_mean,
-    &ErrorFigures::surface_distance_max,  &ErrorFigures::surface_distance_mean,
-    &ErrorFigures::captured_area,         &ErrorFigures::normal_angle_mean,
-    &ErrorFigures::color_difference_mean, &ErrorFigures::quantization_bound,
-};
-
 constexpr std::size_t part_radius = 24;
 constexpr std::size_t part_frame = 32;
 constexpr std::size_t part_mapping = 104;
@@ -130,8 +122,8 @@ PartRecord decode_part(std::span<const std::byte, part_record_size> bytes) {
     record.layer_count = load<std::uint32_t>(in + part_layers);
     part.node = load<std::int32_t>(in + part_node);
     part.joint = load<std::int32_t>(in + part_joint);
-    for (std::size_t i = 0; i < error_fields.size(); ++i)
-        part.errors.*error_fields[i] = load<float>(in + part_errors + 4 * i);
+    for (std::size_t i = 0; i < error_figure_fields.size(); ++i)
+        part.errors.*error_figure_fields[i].value = load<float>(in + part_errors + 4 * i);
     record.reserved_zero = all_zero(bytes.subspan(part_reserved));
     return record;
 }
@@ -146,8 +138,8 @@ void encode_part(const Part& part, std::span<std::byte, part_record_size> bytes)
     store(out + part_layers, std::uint32_t(part.layers.size()));
     store(out + part_node, part.node);
     store(out + part_joint, part.joint);
-    for (std::size_t i = 0; i < error_fields.size(); ++i) {
-        const float value = part.errors.*error_fields[i];
+    for (std::size_t i = 0; i < error_figure_fields.size(); ++i) {
+        const float value = part.errors.*error_figure_fields[i].value;
         std::byte* field = out + part_errors + 4 * i;
         if (std::isnan(value)) {
             store(field, std::uint32_t(0x7FC00000));

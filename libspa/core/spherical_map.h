@@ -10,6 +10,7 @@
 #include "direction_map.h"
 #include "element_format.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -59,6 +60,23 @@ struct ErrorFigures {
     float color_difference_mean = std::numeric_limits<float>::quiet_NaN(); // of 255, per channel
     float quantization_bound = std::numeric_limits<float>::quiet_NaN();
 };
+
+struct ErrorFigureField {
+    const char* name;
+    float ErrorFigures::*value;
+};
+
+// All of them, in the order of the file format.
+inline constexpr std::array<ErrorFigureField, 8> error_figure_fields{{
+    {"texel_distance_max", &ErrorFigures::texel_distance_max},
+    {"texel_distance_mean", &ErrorFigures::texel_distance_mean},
+    {"surface_distance_max", &ErrorFigures::surface_distance_max},
+    {"surface_distance_mean", &ErrorFigures::surface_distance_mean},
+    {"captured_area", &ErrorFigures::captured_area},
+    {"normal_angle_mean", &ErrorFigures::normal_angle_mean},
+    {"color_difference_mean", &ErrorFigures::color_difference_mean},
+    {"quantization_bound", &ErrorFigures::quantization_bound},
+}};
 
 struct Part {
     Vec3d center;      // object space

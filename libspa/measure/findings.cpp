@@ -23,29 +23,9 @@ std::string count(std::uint64_t n, const char* one, const char* many) {
     return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-std::string place(const WorstTexel& at) {
-    return "layer " + std::to_string(at.layer) + " " + name(at.side) + ", texel (" +
-           std::to_string(at.texel.x) + ", " + std::to_string(at.texel.y) + ")";
-}
-
-struct NamedFigure {
-    const char* name;
-    float ErrorFigures::*value;
-};
-constexpr NamedFigure figures[] = {
-    {"texel_distance_max", &ErrorFigures::texel_distance_max},
-    {"texel_distance_mean", &ErrorFigures::texel_distance_mean},
-    {"surface_distance_max", &ErrorFigures::surface_distance_max},
-    {"surface_distance_mean", &ErrorFigures::surface_distance_mean},
-    {"captured_area", &ErrorFigures::captured_area},
-    {"normal_angle_mean", &ErrorFigures::normal_angle_mean},
-    {"color_difference_mean", &ErrorFigures::color_difference_mean},
-    {"quantization_bound", &ErrorFigures::quantization_bound},
-};
-
 // Another program may spread its points otherwise. nullptr: all are as measured, or not in the file.
 const char* lying_figure(const ErrorFigures& written, const ErrorFigures& measured) {
-    for (const NamedFigure& figure : figures) {
+    for (const ErrorFigureField& figure : error_figure_fields) {
         const double w = double(written.*figure.value);
         const double m = double(measured.*figure.value);
         if (!std::isnan(w) && std::abs(w - m) > 0.1 * m + 1e-6) return figure.name;
@@ -54,6 +34,11 @@ const char* lying_figure(const ErrorFigures& written, const ErrorFigures& measur
 }
 
 } // namespace
+
+std::string place(const WorstTexel& at) {
+    return "layer " + std::to_string(at.layer) + " " + name(at.side) + ", texel (" +
+           std::to_string(at.texel.x) + ", " + std::to_string(at.texel.y) + ")";
+}
 
 std::vector<Finding> find_defects(const Part& part, const Measurement& m, double color_tolerance) {
     std::vector<Finding> findings;
@@ -93,20 +78,17 @@ std::vector<Finding> find_defects(const Part& part, const Measurement& m, double
                                 place(*m.worst_normal) + ", by " + number(m.worst_normal->value) + " degrees",
                             m.worst_normal});
     }
-    if (m.color_difference.mean > color_tolerance) {
-        findings.push_back({"color",
-                            "colours are off by " + number(m.color_difference.mean) +
-                                " of 255 on average; the worst, " + place(*m.worst_color) + ", by " +
-                                number(m.worst_color->value),
-                            m.worst_color});
-    }
-    if (m.alpha_difference.mean > color_tolerance) {
-        findings.push_back({"alpha",
-                            "the coverage of colours is off by " + number(m.alpha_difference.mean) +
-                                " of 255 on average; the worst, " + place(*m.worst_alpha) + ", by " +
-                                number(m.worst_alpha->value),
-                            m.worst_alpha});
-    }
+    const auto judge_color = [&](const char* kind, const char* what, const Distribution& difference,
+                                 const std::optional<WorstTexel>& worst) {
+        if (!(difference.mean > color_tolerance)) return;
+        findings.push_back({kind,
+                            std::string(what) + " off by " + number(difference.mean) +
+                                " of 255 on average; the worst, " + place(*worst) + ", by " +
+                                number(worst->value),
+                            worst});
+    };
+    judge_color("color", "colours are", m.color_difference, m.worst_color);
+    judge_color("alpha", "the coverage of colours is", m.alpha_difference, m.worst_alpha);
     if (const char* const name = lying_figure(part.errors, error_figures(m))) {
         findings.push_back(
             {"figures",

@@ -16,6 +16,9 @@ struct Finding {
     std::optional<WorstTexel> at; // the worst or the first place; none for the radius
 };
 
+// "layer 0 outer, texel (12, 40)".
+std::string place(const WorstTexel& at);
+
 // color_tolerance: the mean difference of colour and of alpha, in codes of 255, that is not a finding. 0
 // suits colours filtered as the reference filters them (the radial baker); another texture unit rounds
 // otherwise.

@@ -136,7 +136,7 @@ Vec2f uv_at(const Model& model, std::size_t triangle, Vec3f point) {
 
 // In this asset an arrow along u = v must point to the green markers and not to the red ones.
 TEST(Material, TextureTransformTestPointsTheArrowsRight) {
-    if (assets().empty()) GTEST_SKIP() << "no assets";
+    if (assets().empty()) GTEST_SKIP() << "no assets: set SPA_ASSETS";
     const Model model =
         import::read_model(assets() / "gltf/TextureTransformTest/TextureTransformTest.gltf").model;
     const std::vector<TexturedTriangle> triangles = textured_triangles(model);

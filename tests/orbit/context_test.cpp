@@ -27,7 +27,7 @@ TEST(GlContext, AutomaticPrefersEgl) {
 TEST(GlContext, EglAndOsmesaTakeTurns) {
     for (const GlApi api : {GlApi::egl, GlApi::osmesa, GlApi::egl, GlApi::osmesa}) {
         const auto context = open_context(api);
-        if (!context) GTEST_SKIP() << "not both are here";
+        if (!context) GTEST_SKIP() << "not both EGL and OSMesa are here";
         GLint major = 0;
         context->functions().GetIntegerv(GL_MAJOR_VERSION, &major);
         EXPECT_GE(major, 4);
