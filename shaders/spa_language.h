@@ -10,7 +10,8 @@
 //
 // An application says where the words are:
 //   C++                   SpaWords{pointer}
-//   GLSL 460              before the include: #define SPA_LOAD(index) words[index], over a buffer or texture of
+//   GLSL 460              before the include: #define SPA_LOAD(index) words[index], over a buffer or texture
+//   of
 //                         its own; SpaWords is the index of the image's first word in it
 //   GLSL ES 3.00          the same, for example #define SPA_LOAD(index) texelFetch(words,
 //                         ivec2(index & 1023u, index >> 10u), 0).x

@@ -3,14 +3,16 @@
 // places are indices of words from the header's first, so an image may lie anywhere.
 //
 //   nodes      bounds of the surface, a pyramid over each quadrant of the octahedral map (spa_projective.h)
-//   samples    W of every sample and surface: 1/|q|_1 of the stored point q (map space); SPA_FAR = none there,
+//   samples    W of every sample and surface: 1/|q|_1 of the stored point q (map space); SPA_FAR = none
+//   there,
 //              or as an inner end: reaches the centre. Plane by plane: outer 0, inner 0, outer 1, ...
-//   cells      one word a cell and quadrant: 0 = both triangles are pure, else where its two lists of prisms are
-//   prisms     what stands in mixed triangles
-//   depths     r/R of the outermost surface, one float a sample: what fan and march read
-//   images     colours and normals of every surface
+//   cells      one word a cell and quadrant: 0 = both triangles are pure, else where its two lists of prisms
+//   are prisms     what stands in mixed triangles depths     r/R of the outermost surface, one float a
+//   sample: what fan and march read images     colours and normals of every surface
 #ifndef SPA_MAP_H
 #define SPA_MAP_H
+
+#include "spa_language.h"
 
 SPA_BEGIN
 
@@ -27,16 +29,16 @@ SPA_BEGIN
 #define SPA_HEADER_FLAGS 6u     // SPA_MAP_...
 #define SPA_HEADER_RADIUS 7u    // float: no stored point is farther from the centre
 #define SPA_HEADER_LEVELS 8u    // octahedral: a quadrant has 2^levels x 2^levels cells, padding included
-#define SPA_HEADER_CODE_BASE 9u   // a node's code c stands for the float of pattern base + (c << shift)
+#define SPA_HEADER_CODE_BASE 9u // a node's code c stands for the float of pattern base + (c << shift)
 #define SPA_HEADER_CODE_SHIFT 10u
-#define SPA_HEADER_W_MAX 11u    // float: no finite W of samples and prisms is greater
-#define SPA_HEADER_W_CORE 12u   // float: rays are not followed beyond this W
+#define SPA_HEADER_W_MAX 11u  // float: no finite W of samples and prisms is greater
+#define SPA_HEADER_W_CORE 12u // float: rays are not followed beyond this W
 #define SPA_HEADER_NODES 13u
 #define SPA_HEADER_SAMPLES 14u
-#define SPA_HEADER_CELLS 15u    // 0: there are no mixed triangles
+#define SPA_HEADER_CELLS 15u // 0: there are no mixed triangles
 #define SPA_HEADER_PRISMS 16u
 #define SPA_HEADER_DEPTHS 17u
-#define SPA_HEADER_IMAGES 18u   // SPA_IMAGE_WORDS words a surface
+#define SPA_HEADER_IMAGES 18u // SPA_IMAGE_WORDS words a surface
 
 #define SPA_HEADER_WORDS 20u
 #define SPA_MAGIC 0x54415053u // "SPAT"

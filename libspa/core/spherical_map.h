@@ -85,8 +85,16 @@ struct Part {
     Mapping mapping = Mapping::octahedral;
     std::int32_t node = -1;  // index of the source node that the part follows; -1 = the whole object
     std::int32_t joint = -1; // index of the skin joint that the part follows; -1 = none
+    // The centre lies in the solid: surface bounds the solid around it in every direction that has one, and a
+    // direction without surface is an opening of the mesh (the open leg of a boot), not a silhouette. false:
+    // it lies outside, or it is not known; a bake of one layer, which sees the outermost surface alone, does
+    // not know.
+    bool center_inside = false;
     ErrorFigures errors;
     std::vector<Layer> layers; // at least one
+    // Octahedral maps: which triangles between samples are mixed, that is not to be interpolated over; the
+    // layout is in cell_triangles.h, N = width of the depth images - 1. Empty: not stored.
+    std::span<const std::byte> mixed;
 };
 
 struct SphericalMap {

@@ -36,7 +36,7 @@ constexpr std::uint32_t no_instance = 0xFFFFFFFFU;
 struct Hit {
     float t = std::numeric_limits<float>::infinity(); // infinity: nothing was hit
     Vec3f normal;                                     // geometric, unit, out of the solid
-    Vec2f map;                                        // place on the map in [0,1]^2, from the left and the top
+    Vec2f map; // place on the map in [0,1]^2, from the left and the top
     std::uint32_t layer = 0;
     HitSide side = HitSide::outer;
     bool front = true;                    // the ray comes from outside the solid

@@ -11,8 +11,8 @@
 
 namespace spa::trace {
 
-// One ray, by the text that GPUs run (../../shaders/spa_projective.h). octahedral maps only: on others every ray
-// misses. Returns hit.valid(). flags: TraceFlags.
+// One ray, by the text that GPUs run (../../shaders/spa_projective.h). octahedral maps only: on others every
+// ray misses. Returns hit.valid(). flags: TraceFlags.
 bool closest_hit(const TraceMap& map, const Ray& ray, std::uint32_t flags, Hit& hit);
 
 // Whether anything is hit. flags as above.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A part made ready for tracing: the trace image of ../../shaders/spa_map.h, the same words for the CPU tracers,
-// for a GPU buffer and for a web page's texture. What surface it stands for: ../../docs/tracing.md, "The stored
-// surface".
+// A part made ready for tracing: the trace image of ../../shaders/spa_map.h, the same words for the CPU
+// tracers, for a GPU buffer and for a web page's texture. What surface it stands for: ../../docs/tracing.md,
+// "The stored surface".
 #pragma once
 
 #include "../../shaders/spa_map.h"
@@ -22,8 +22,8 @@ struct CompileOptions {
 
 class TraceMap {
 public:
-    // O(samples). part: as a reader that has checked it gives it, or a bake. Throws Error{unsupported} for a map
-    // with more than 2^14 cells a side, or whose image would have 2^32 words.
+    // O(samples). part: as a reader that has checked it gives it, or a bake. Throws Error{unsupported} for a
+    // map with more than 2^14 cells a side, or whose image would have 2^32 words.
     explicit TraceMap(const Part& part, const CompileOptions& options = {});
 
     // The trace image; position independent.
@@ -31,13 +31,15 @@ public:
     // Opened for the text; valid while this object lives and is not moved from.
     [[nodiscard]] const shader::SpaMap& map() const { return map_; }
 
-    // Bytes that a trace touches at most: nodes, samples, cells, prisms. Without images and without what fan and
-    // march read.
+    // Bytes that a trace touches at most: nodes, samples, cells, prisms. Without images and without what fan
+    // and march read.
     [[nodiscard]] std::size_t projective_bytes() const;
     // Bytes of the depths that fan and march read.
     [[nodiscard]] std::size_t depth_bytes() const;
 
 private:
+    [[nodiscard]] std::size_t part_of_image(std::uint32_t to, std::uint32_t from) const;
+
     std::vector<std::uint32_t> words_;
     shader::SpaMap map_;
 };

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "map_surface.h"
+
+#include "../../shaders/spa_cell.h"
+
+#include "../core/element_format.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace spa::trace {
+namespace {
+
+using Plane = shader::SpaPlane;
+
+constexpr float far_w = SPA_FAR;
+
+const Surface* surface_at(const Part& part, std::uint32_t surface) {
+    const Layer& layer = part.layers[surface / 2];
+    const Surface& found = surface % 2 == 0 ? layer.outer : layer.inner;
+    return found.empty() ? nullptr : &found;
+}
+
+// A triangle of the grid; x and y count cells of its quadrant from the middle.
+struct MapTriangle {
+    std::uint32_t quadrant = 0;
+    std::uint32_t x = 0, y = 0;
+    std::uint32_t beyond = 0; // 0: at the cell's corner nearest to the middle, 1: the other one
+};
+
+struct Corner {
+    double u = 0, v = 0; // in the cell, (0, 0) nearest to the middle
+    TexelIndex texel;
+};
+
+std::array<Corner, 3> corners_of(const Grid& grid, const MapTriangle& t) {
+    constexpr std::array<std::array<std::uint32_t, 2>, 6> places{
+        {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0, 1}, {1, 0}}};
+    const std::uint32_t middle = (grid.width - 1) / 2;
+    std::array<Corner, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto [u, v] = places[3 * std::size_t(t.beyond) + i];
+        corners[i] = {double(u),
+                      double(v),
+                      {(t.quadrant & 1U) == 0 ? middle + t.x + u : middle - t.x - u,
+                       (t.quadrant & 2U) == 0 ? middle - t.y - v : middle + t.y + v}};
+    }
+    return corners;
+}
+
+// Region i of a mixed triangle is where corner i's barycentric coordinate is the largest: these two functions
+// are not negative there (barycentric coordinates of the near half: 1-u-v, u, v; of the half beyond: u+v-1,
+// 1-u, 1-v).
+constexpr std::array<std::array<Plane, 2>, 6> region_half_planes{{
+    {{{1, -2, -1}, {1, -1, -2}}},
+    {{{-1, 2, 1}, {0, 1, -1}}},
+    {{{-1, 1, 2}, {0, -1, 1}}},
+    {{{-2, 2, 1}, {-2, 1, 2}}},
+    {{{2, -2, -1}, {0, -1, 1}}},
+    {{{2, -1, -2}, {0, 1, -1}}},
+}};
+
+struct Slope {
+    double u = 0, v = 0;
+};
+
+class CellFinder {
+public:
+    CellFinder(const Part& part, const MapSamples& samples) : part_(part), samples_(samples) {
+        cells_count_ = (samples.grid.width - 1) / 2;
+        result_.levels = std::uint32_t(std::bit_width(cells_count_ - 1));
+        result_.ranges.resize(std::size_t(4) << (2 * result_.levels));
+        find_extent();
+    }
+
+    MapCells find() {
+        for (std::uint32_t quadrant = 0; quadrant < 4; ++quadrant)
+            for (std::uint32_t y = 0; y < cells_count_; ++y)
+                for (std::uint32_t x = 0; x < cells_count_; ++x) add_cell(quadrant, x, y);
+        if (any_empty_ && any_solid_) result_.uniform_core = false;
+        return std::move(result_);
+    }
+
+private:
+    [[nodiscard]] float w_of(std::uint32_t surface, TexelIndex texel) const {
+        if (surface >= samples_.surfaces) return far_w;
+        return samples_.w[surface * samples_.count() + std::size_t(texel.y) * samples_.grid.width + texel.x];
+    }
+
+    [[nodiscard]] std::uint32_t intervals_at(TexelIndex texel) const {
+        std::uint32_t n = 0;
+        while (n < samples_.layers() && w_of(2 * n, texel) < far_w) ++n;
+        return n;
+    }
+
+    void find_extent() {
+        result_.w_min = far_w;
+        result_.w_max = 0;
+        for (const float w : samples_.w) {
+            if (w >= far_w) continue;
+            result_.w_min = std::min(result_.w_min, w);
+            result_.w_max = std::max(result_.w_max, w);
+        }
+        if (result_.w_max == 0) result_.w_min = result_.w_max = 1;
+        float radius = 0;
+        for (const float depth : samples_.depth) radius = std::max(radius, depth);
+        // Of triangles the corners are farthest; regions with tangent planes add to it as they are made.
+        result_.radius = radius * (1 + 1e-6F);
+        result_.uniform_core = true;
+    }
+
+    [[nodiscard]] bool is_mixed(const MapTriangle& t, const std::array<Corner, 3>& corners) const {
+        const std::uint32_t n = intervals_at(corners[0].texel);
+        for (std::size_t i = 1; i < 3; ++i)
+            if (intervals_at(corners[i].texel) != n) return true;
+        for (std::uint32_t k = 0; k < n; ++k)
+            for (std::size_t i = 1; i < 3; ++i)
+                if ((w_of(2 * k + 1, corners[0].texel) < far_w) !=
+                    (w_of(2 * k + 1, corners[i].texel) < far_w))
+                    return true;
+        if (n == 0 || part_.mixed.empty()) return false;
+        const std::uint32_t x = (t.quadrant & 1U) == 0 ? cells_count_ + t.x : cells_count_ - 1 - t.x;
+        const std::uint32_t y = (t.quadrant & 2U) == 0 ? cells_count_ - 1 - t.y : cells_count_ + t.y;
+        const std::size_t bit = 2 * (std::size_t(y) * (2 * std::size_t(cells_count_)) + x) + t.beyond;
+        return (std::to_integer<unsigned>(part_.mixed[bit / 8]) >> (bit % 8) & 1U) != 0;
+    }
+
+    // What lies around the centre in the directions of a corner, or of a triangle that has the same there.
+    void see_core(TexelIndex texel) {
+        const std::uint32_t n = intervals_at(texel);
+        const bool solid = n > 0 && w_of(2 * n - 1, texel) >= far_w;
+        (solid ? any_solid_ : any_empty_) = true;
+    }
+
+    void add_cell(std::uint32_t quadrant, std::uint32_t x, std::uint32_t y) {
+        const std::size_t cell =
+            (std::size_t(quadrant) << (2 * result_.levels)) + (std::size_t(y) << result_.levels) + x;
+        std::array<MapTriangle, 2> triangles;
+        std::array<bool, 2> mixed{};
+        for (std::uint32_t beyond = 0; beyond < 2; ++beyond) {
+            triangles[beyond] = {quadrant, x, y, beyond};
+            const std::array<Corner, 3> corners = corners_of(samples_.grid, triangles[beyond]);
+            for (const Corner& corner : corners) see_core(corner.texel);
+            mixed[beyond] = is_mixed(triangles[beyond], corners);
+            if (!mixed[beyond]) add_pure(corners, result_.ranges[cell]);
+        }
+        if (!mixed[0] && !mixed[1]) return;
+        if (result_.lists.empty()) begin_lists();
+        const std::size_t entry = result_.lists.size();
+        result_.cells[cell] = std::uint32_t(entry);
+        result_.lists.resize(entry + 4);
+        for (std::uint32_t beyond = 0; beyond < 2; ++beyond) {
+            const std::size_t first = result_.lists.size();
+            std::uint32_t count = SPA_PURE;
+            if (mixed[beyond]) count = add_mixed(triangles[beyond], result_.ranges[cell]);
+            result_.lists[entry + 2 * std::size_t(beyond)] = std::uint32_t(first);
+            result_.lists[entry + 2 * std::size_t(beyond) + 1] = count;
+            result_.places.push_back(std::uint32_t(entry + 2 * std::size_t(beyond)));
+        }
+    }
+
+    void begin_lists() {
+        result_.cells.resize(result_.ranges.size());
+        for (const auto& region : region_half_planes)
+            for (const Plane& plane : region) append(plane);
+    }
+
+    void append(const Plane& plane) {
+        for (const float value : {plane.c, plane.u, plane.v})
+            result_.lists.push_back(std::bit_cast<std::uint32_t>(value));
+    }
+
+    void add_pure(const std::array<Corner, 3>& corners, Ranges& ranges) const {
+        for (std::uint32_t k = 0; k < samples_.layers(); ++k) {
+            Range range{far_w, 0};
+            for (const Corner& corner : corners) {
+                range.low = std::min(range.low, w_of(2 * k, corner.texel));
+                range.high = std::max(range.high, w_of(2 * k + 1, corner.texel));
+            }
+            if (range.low < far_w) ranges.add(range);
+        }
+    }
+
+    // Of w over (u, v) along the plane through a stored point with its stored normal.
+    [[nodiscard]] Slope tangent(const MapTriangle& t, const Corner& corner, std::uint32_t surface) const {
+        const Surface* const stored = surface_at(part_, surface);
+        if (stored == nullptr || stored->normal.empty()) return {};
+        const ImageView& normals = stored->normal;
+        const Vec3d g = sample_direction(samples_.grid, corner.texel);
+        Vec3f n;
+        if (normals.width == samples_.grid.width && normals.height == samples_.grid.height) {
+            n = decode_normal(normals.format, normals.at(corner.texel.x, corner.texel.y));
+        } else {
+            const Vec2d p = position_of({Mapping::octahedral, normals.width, normals.height}, g);
+            n = decode_normal(normals.format,
+                              normals.at(std::uint32_t(std::lround(p.x)), std::uint32_t(std::lround(p.y))));
+        }
+        // The octant's signs: of the triangle's, as the corner may lie on its border.
+        const bool upper = t.x + t.y + t.beyond < cells_count_;
+        const Vec3d m{(t.quadrant & 1U) == 0 ? double(n.x) : -double(n.x),
+                      (t.quadrant & 2U) == 0 ? double(n.y) : -double(n.y),
+                      upper ? double(n.z) : -double(n.z)};
+        // w = n.g / n.q over directions of |g|_1 = 1, with q = g / W.
+        const double distance = dot(to_double(n), g) / double(w_of(surface, corner.texel));
+        if (distance == 0 || !std::isfinite(1 / distance)) return {};
+        const double scale = 1 / (distance * double(cells_count_));
+        if (upper) return {(m.x - m.z) * scale, (m.y - m.z) * scale};
+        return {(m.z - m.y) * scale, (m.z - m.x) * scale};
+    }
+
+    // The four corners of region `index`, seen from corner `index`.
+    static std::array<Slope, 4> region_offsets(const std::array<Corner, 3>& corners, std::size_t index) {
+        std::array<Slope, 4> offsets;
+        const Corner& own = corners[index];
+        Slope sum;
+        for (std::size_t i = 1; i < 3; ++i) {
+            const Corner& other = corners[(index + i) % 3];
+            offsets[i] = {(other.u - own.u) / 2, (other.v - own.v) / 2};
+            sum = {sum.u + other.u - own.u, sum.v + other.v - own.v};
+        }
+        offsets[3] = {sum.u / 3, sum.v / 3};
+        return offsets;
+    }
+
+    static double change(const Slope& slope, const Slope& offset) {
+        return slope.u * offset.u + slope.v * offset.v;
+    }
+
+    // Scaled so that W changes by 2 h W at most, h the size of a cell in (a, b), and by half of W on coarse
+    // maps.
+    [[nodiscard]] Slope limited(Slope slope, const std::array<Slope, 4>& offsets, double w) const {
+        double most = 0;
+        for (const Slope& offset : offsets) most = std::max(most, std::abs(change(slope, offset)));
+        const double limit = std::min(2 / double(cells_count_), 0.5) * w;
+        const double scale = most > limit ? limit / most : 1;
+        return {slope.u * scale, slope.v * scale};
+    }
+
+    std::uint32_t add_mixed(const MapTriangle& t, Ranges& ranges) {
+        const std::array<Corner, 3> corners = corners_of(samples_.grid, t);
+        bool opening = false;
+        for (const Corner& corner : corners) opening = opening || intervals_at(corner.texel) == 0;
+        std::uint32_t count = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t n = intervals_at(corners[i].texel);
+            for (std::uint32_t k = 0; k < n; ++k, ++count) add_region(t, corners, i, k, opening, ranges);
+        }
+        return count;
+    }
+
+    void add_region(const MapTriangle& t, const std::array<Corner, 3>& corners, std::size_t index,
+                    std::uint32_t k, bool opening, Ranges& ranges) {
+        const Corner& corner = corners[index];
+        const std::array<Slope, 4> offsets = region_offsets(corners, index);
+        const double outer = double(w_of(2 * k, corner.texel));
+        const double inner = double(w_of(2 * k + 1, corner.texel));
+        const bool to_center = inner >= double(far_w);
+        Slope outer_slope = limited(tangent(t, corner, 2 * k), offsets, outer);
+        Slope inner_slope = to_center ? Slope{} : limited(tangent(t, corner, 2 * k + 1), offsets, inner);
+        for (const Slope& offset : offsets)
+            if (!to_center && outer + change(outer_slope, offset) > inner + change(inner_slope, offset)) {
+                outer_slope = inner_slope = {};
+                break;
+            }
+        Range range{far_w, 0};
+        for (const Slope& offset : offsets) {
+            range.low = std::min(range.low, float(outer + change(outer_slope, offset)));
+            range.high = std::max(range.high, to_center ? far_w : float(inner + change(inner_slope, offset)));
+            result_.w_max = std::max(result_.w_max, float(outer + change(outer_slope, offset)));
+            extend(corner, offset, t, outer + change(outer_slope, offset));
+        }
+        ranges.add(range);
+        result_.w_min = std::min(result_.w_min, range.low);
+        if (!to_center) result_.w_max = std::max(result_.w_max, range.high);
+        append(plane_of(corner, outer, outer_slope));
+        append(to_center ? Plane{far_w, 0, 0} : plane_of(corner, inner, inner_slope));
+        const bool open = opening && to_center && part_.center_inside;
+        result_.lists.push_back(k | 2U << 16U | (open ? SPA_PRISM_OPEN : 0U));
+        result_.places.push_back(std::uint32_t(result_.lists.size()));
+        result_.lists.push_back((3 * t.beyond + std::uint32_t(index)) * 6);
+    }
+
+    static Plane plane_of(const Corner& corner, double w, const Slope& slope) {
+        return {float(w - slope.u * corner.u - slope.v * corner.v), float(slope.u), float(slope.v)};
+    }
+
+    // The radius, by a point of the surface in the triangle's cell.
+    void extend(const Corner& corner, const Slope& offset, const MapTriangle& t, double w) {
+        const double a = (t.x + corner.u + offset.u) / cells_count_;
+        const double b = (t.y + corner.v + offset.v) / cells_count_;
+        const bool upper = t.x + t.y + t.beyond < cells_count_;
+        const Vec3d g = upper ? Vec3d{a, b, 1 - a - b} : Vec3d{1 - b, 1 - a, a + b - 1};
+        result_.radius = std::max(result_.radius, float(length(g) / w) * (1 + 1e-6F));
+    }
+
+    const Part& part_;
+    const MapSamples& samples_;
+    std::uint32_t cells_count_ = 1;
+    MapCells result_;
+    bool any_solid_ = false, any_empty_ = false;
+};
+
+void read_depths(const ImageView& image, std::vector<float>& depths) {
+    depths.resize(std::size_t(image.width) * image.height);
+    const std::size_t size = element_size(image.format);
+    for (std::size_t i = 0; i < depths.size(); ++i)
+        depths[i] = decode_depth(image.format, image.bytes.data() + i * size);
+}
+
+} // namespace
+
+MapSamples read_samples(const Part& part, std::uint32_t layers) {
+    MapSamples samples;
+    const ImageView& depth = part.layers.front().outer.depth;
+    samples.grid = {part.mapping, depth.width, depth.height};
+    read_depths(depth, samples.depth);
+    const auto stored = std::uint32_t(part.layers.size());
+    const std::uint32_t kept = layers == 0 ? stored : std::min(layers, stored);
+    samples.surfaces = kept == 1 && part.layers.front().inner.empty() ? 1 : 2 * kept;
+    if (part.mapping != Mapping::octahedral) return samples;
+    const std::size_t count = samples.count();
+    std::vector<double> lengths(count);
+    for (std::uint32_t y = 0; y < depth.height; ++y)
+        for (std::uint32_t x = 0; x < depth.width; ++x)
+            lengths[std::size_t(y) * depth.width + x] = length(sample_direction(samples.grid, {x, y}));
+    samples.w.assign(samples.surfaces * count, far_w);
+    std::vector<float> depths;
+    for (std::uint32_t s = 0; s < samples.surfaces; ++s) {
+        const Surface* const surface = surface_at(part, s);
+        if (surface == nullptr) continue;
+        read_depths(surface->depth, depths);
+        for (std::size_t i = 0; i < count; ++i)
+            if (depths[i] > 0)
+                samples.w[s * count + i] = std::min(float(lengths[i] / double(depths[i])), far_w / 2);
+    }
+    return samples;
+}
+
+MapCells find_cells(const Part& part, const MapSamples& samples) { return CellFinder(part, samples).find(); }
+
+} // namespace spa::trace

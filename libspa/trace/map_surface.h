@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the samples of a part to what stands in the cells of its map. The definition is ../../docs/tracing.md,
+// "The stored surface"; the words are those of ../../shaders/spa_cell.h.
+#pragma once
+
+#include "map_ranges.h"
+
+#include "../core/spherical_map.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace spa::trace {
+
+struct MapSamples {
+    Grid grid;
+    std::uint32_t surfaces = 1; // 1, or 2 a layer: outer, inner
+    std::vector<float> depth;   // r/R of the outermost surface, 0 = none
+    std::vector<float> w;       // octahedral: 1/|q|_1, plane by plane; SPA_FAR = none, or to the centre
+
+    [[nodiscard]] std::size_t count() const { return std::size_t(grid.width) * grid.height; }
+    [[nodiscard]] std::uint32_t layers() const { return (surfaces + 1) / 2; }
+};
+
+// layers: as many at most; 0: all.
+MapSamples read_samples(const Part& part, std::uint32_t layers);
+
+// The cells of an octahedral map, quadrant by quadrant (bit 0: left, bit 1: below the middle), row by row,
+// counted from the middle; a quadrant has 2^levels x 2^levels of them, padding included.
+struct MapCells {
+    std::uint32_t levels = 0;
+    std::vector<Ranges> ranges;       // of w in each cell
+    std::vector<std::uint32_t> lists; // what mixed triangles hold; empty: none is mixed
+    std::vector<std::uint32_t>
+        cells; // place of a cell's two (place, count) in `lists`, 0 = both triangles are pure
+    std::vector<std::uint32_t> places; // which words of `lists` are themselves places in `lists`
+    float radius = 0;                  // of the farthest point, in units of R, rounded up
+    float w_min = 0, w_max = 0;        // of all finite ends; 1 if there are none
+    bool uniform_core = false;         // around the centre, within 1/w_max, everything is solid, or nothing
+};
+
+// O(samples). At most 2^14 cells a side.
+MapCells find_cells(const Part& part, const MapSamples& samples);
+
+} // namespace spa::trace

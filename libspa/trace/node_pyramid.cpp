@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node_pyramid.h"
+
+#include "../../shaders/spa_projective.h"
+
+#include <bit>
+
+namespace spa::trace {
+namespace {
+
+// What rays and planes evaluated in float may differ from the ends, relative.
+constexpr float margin = 4e-6F;
+constexpr std::uint32_t last_code = 0xFFFF; // an upper end: beyond any w; a lower end: nothing is here
+
+std::uint32_t pattern(float value) { return std::bit_cast<std::uint32_t>(value); }
+
+struct Codes {
+    std::uint32_t base = 0, shift = 0;
+
+    explicit Codes(const MapCells& cells) : base(pattern(cells.w_min * (1 - 2 * margin))) {
+        // The last code stands for what no ray reaches, which is above the greatest end.
+        const std::uint32_t span = pattern(cells.w_max * (1 + 2 * margin)) - base;
+        while ((span >> shift) + 1 >= last_code) ++shift;
+    }
+    [[nodiscard]] std::uint32_t low(float w) const { return (pattern(w * (1 - margin)) - base) >> shift; }
+    [[nodiscard]] std::uint32_t high(float w) const {
+        if (w >= SPA_FAR) return last_code;
+        return ((pattern(w * (1 + margin)) - base) >> shift) + 1;
+    }
+};
+
+constexpr std::uint32_t empty_range = last_code; // from the last code to code 0
+
+std::uint32_t encode(const Codes& codes, const Range& range) {
+    return codes.low(range.low) | codes.high(range.high) << 16U;
+}
+
+} // namespace
+
+NodePyramid build_pyramid(const MapCells& cells, std::uint32_t words) {
+    NodePyramid pyramid;
+    const Codes codes(cells);
+    pyramid.words = words;
+    pyramid.code_base = codes.base;
+    pyramid.code_shift = codes.shift;
+    std::size_t total = 0;
+    for (std::uint32_t bits = 0; bits <= cells.levels; ++bits) total += std::size_t(4) << (2 * bits);
+    pyramid.nodes.assign(words * total, empty_range);
+    std::vector<Ranges> level = cells.ranges;
+    for (std::uint32_t bits = cells.levels;; --bits) {
+        const std::size_t first = shader::spa_node(bits, 0, 0, 0);
+        for (std::size_t i = 0; i < level.size(); ++i) {
+            Ranges ranges = level[i];
+            if (words == 1 && ranges.count() == 2) {
+                Ranges joined;
+                joined.add({ranges[0].low, ranges[1].high});
+                ranges = joined;
+            }
+            for (unsigned n = 0; n < ranges.count(); ++n)
+                pyramid.nodes[words * (first + i) + n] = encode(codes, ranges[n]);
+        }
+        if (bits == 0) break;
+        std::vector<Ranges> above(level.size() / 4);
+        for (std::size_t i = 0; i < level.size(); ++i) {
+            const std::size_t quadrant = i >> (2 * bits);
+            const std::size_t y = (i >> bits) & ((std::size_t(1) << bits) - 1);
+            const std::size_t x = i & ((std::size_t(1) << bits) - 1);
+            above[(quadrant << (2 * (bits - 1))) + ((y / 2) << (bits - 1)) + x / 2].add(level[i]);
+        }
+        level = std::move(above);
+    }
+    return pyramid;
+}
+
+} // namespace spa::trace

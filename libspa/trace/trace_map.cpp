@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trace_map.h"
+
+#include "map_images.h"
+#include "map_surface.h"
+#include "node_pyramid.h"
+
+#include "../core/error.h"
+
+#include <bit>
+#include <string>
+
+namespace spa::trace {
+namespace {
+
+constexpr std::uint32_t max_side = (1U << 14U) + 1;
+
+void check_size(const Part& part) {
+    const ImageView& depth = part.layers.front().outer.depth;
+    if (depth.width > max_side || depth.height > max_side)
+        throw Error(ExitCode::unsupported,
+                    "a map of " + std::to_string(depth.width) + " x " + std::to_string(depth.height) +
+                        " samples is too large to trace; bake it with at most 16384 cells a side");
+}
+
+// Appends words and says where they are.
+std::uint32_t append(std::vector<std::uint32_t>& words, std::span<const std::uint32_t> more) {
+    constexpr std::uint64_t limit = UINT32_MAX;
+    if (words.size() + more.size() > limit)
+        throw Error(ExitCode::unsupported,
+                    "this map is too large to trace: its trace image would have 2^32 words");
+    const auto place = std::uint32_t(words.size());
+    words.insert(words.end(), more.begin(), more.end());
+    return place;
+}
+
+std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
+
+std::vector<std::uint32_t> patterns(std::span<const float> values) {
+    std::vector<std::uint32_t> words(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) words[i] = bits(values[i]);
+    return words;
+}
+
+// Beyond which w rays are not followed, in units of the greatest w (docs/tracing.md, "The core").
+constexpr float uniform_core = 2, mixed_core = 64;
+
+void add_cells(const Part& part, const MapSamples& samples, std::vector<std::uint32_t>& words) {
+    const MapCells cells = find_cells(part, samples);
+    const NodePyramid pyramid = build_pyramid(cells, samples.surfaces > 1 ? 2 : 1);
+    words[SPA_HEADER_RADIUS] = bits(cells.radius);
+    words[SPA_HEADER_FLAGS] = pyramid.words == 2 ? SPA_MAP_TWO_RANGES : 0;
+    words[SPA_HEADER_LEVELS] = cells.levels;
+    words[SPA_HEADER_CODE_BASE] = pyramid.code_base;
+    words[SPA_HEADER_CODE_SHIFT] = pyramid.code_shift;
+    words[SPA_HEADER_W_MAX] = bits(cells.w_max);
+    words[SPA_HEADER_W_CORE] = bits(cells.w_max * (cells.uniform_core ? uniform_core : mixed_core));
+    words[SPA_HEADER_NODES] = append(words, pyramid.nodes);
+    words[SPA_HEADER_SAMPLES] = append(words, patterns(samples.w));
+    if (cells.lists.empty()) return;
+    const auto lists = std::uint32_t(words.size() + cells.cells.size());
+    std::vector<std::uint32_t> places = cells.cells;
+    for (std::uint32_t& place : places)
+        if (place != 0) place += lists;
+    words[SPA_HEADER_CELLS] = append(words, places);
+    words[SPA_HEADER_PRISMS] = append(words, cells.lists);
+    for (const std::uint32_t place : cells.places) words[lists + place] += lists;
+}
+
+} // namespace
+
+TraceMap::TraceMap(const Part& part, const CompileOptions& options) {
+    check_size(part);
+    const ImageView& depth = part.layers.front().outer.depth;
+    const MapSamples samples = read_samples(part, options.layers);
+    std::vector<std::uint32_t>& words = words_;
+    words.assign(SPA_HEADER_WORDS, 0);
+    words[SPA_HEADER_MAGIC] = SPA_MAGIC;
+    words[SPA_HEADER_MAPPING] = std::uint32_t(part.mapping);
+    words[SPA_HEADER_WIDTH] = depth.width;
+    words[SPA_HEADER_HEIGHT] = depth.height;
+    words[SPA_HEADER_SURFACES] = samples.surfaces;
+    words[SPA_HEADER_RADIUS] = bits(1.0F);
+    if (part.mapping == Mapping::octahedral) add_cells(part, samples, words);
+    words[SPA_HEADER_DEPTHS] = append(words, patterns(samples.depth));
+    if (options.images) {
+        const MapImages images = read_images(part, samples.surfaces);
+        std::vector<std::uint32_t> table = images.table;
+        const auto first = std::uint32_t(words.size() + table.size());
+        for (std::size_t i = 0; i < table.size(); i += 3) table[i] += first;
+        words[SPA_HEADER_IMAGES] = append(words, table);
+        append(words, images.words);
+    } else {
+        words[SPA_HEADER_IMAGES] =
+            append(words, std::vector<std::uint32_t>(std::size_t(samples.surfaces) * SPA_IMAGE_WORDS, 0));
+    }
+    words[SPA_HEADER_LENGTH] = std::uint32_t(words.size());
+    words.shrink_to_fit();
+    map_ = shader::spa_open(shader::SpaWords{words_.data()});
+}
+
+std::size_t TraceMap::projective_bytes() const { return part_of_image(SPA_HEADER_DEPTHS, SPA_HEADER_NODES); }
+
+std::size_t TraceMap::depth_bytes() const { return part_of_image(SPA_HEADER_IMAGES, SPA_HEADER_DEPTHS); }
+
+// Bytes from one place of the header to another; 0 where the first is not there.
+std::size_t TraceMap::part_of_image(std::uint32_t to, std::uint32_t from) const {
+    return words_[from] == 0 ? 0 : (std::size_t(words_[to]) - words_[from]) * sizeof(std::uint32_t);
+}
+
+} // namespace spa::trace

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands in one cell of an octahedral map, and where a ray enters and leaves it.
+//
+// The solid in a triangle is a union of convex prisms: between two planes w = c + u x + v y, outer and inner,
+// and within up to three half-planes besides the triangle's edges. A pure triangle's prisms are its
+// intervals, read from the samples; a mixed one's are listed in the image. Along the ray everything is
+// linear, so clipping a piece of the ray takes two values a plane. x and y are the cell's own here, in [0,1],
+// from the corner nearest to the map's middle.
+#ifndef SPA_CELL_H
+#define SPA_CELL_H
+
+#include "spa_map.h"
+
+SPA_BEGIN
+
+#define SPA_OUTSIDE 0u
+#define SPA_INSIDE 1u
+#define SPA_UNKNOWN 2u // the ray starts within the map's sphere
+
+// What bounds a clipped piece.
+#define SPA_BY_EDGE 0u // the triangle's edges: the piece's own end
+#define SPA_BY_OUTER 1u
+#define SPA_BY_INNER 2u
+#define SPA_BY_HALF_PLANE 3u // and above: 3 + index
+
+// Regions of a mixed triangle overlap by this many cells, so that no ray passes between them.
+#define SPA_OVERLAP 1e-6f
+// Steps lower than this, relative to w, are rounding and no walls.
+#define SPA_STEP 1e-4f
+
+// Words of a prism.
+#define SPA_PRISM_WORDS 8u // outer plane (3), inner plane (3), properties, place of the half-planes
+// Properties: bits 0-15 layer, 16-23 number of half-planes, bit 24: its walls are open.
+#define SPA_PRISM_OPEN 0x1000000u
+// Of a list of prisms that stands for a pure triangle.
+#define SPA_PURE 0xFFFFFFFFu
+
+struct SpaPlane {
+    float c;
+    float u;
+    float v;
+};
+
+struct SpaPrism {
+    SpaPlane outer;
+    SpaPlane inner;
+    uint layer;
+    uint half_planes; // how many
+    uint first;       // where
+    bool open;
+};
+
+// A piece of the ray within one triangle: sigma, the place in the cell and w at both ends.
+struct SpaPiece {
+    float s0;
+    float u0;
+    float v0;
+    float w0;
+    float s1;
+    float u1;
+    float v1;
+    float w1;
+};
+
+struct SpaTriangle {
+    uint corner; // sample at the cell's corner nearest to the map's middle
+    uint step_x; // to the next sample in x and y, modulo 2^32
+    uint step_y;
+    uint beyond; // 0: the triangle at that corner, 1: the other one
+    uint prisms; // SPA_PURE, or how many
+    uint first;  // where they are
+};
+
+// Where the ray enters or leaves the solid.
+struct SpaEvent {
+    float s;
+    SpaPlane plane; // that it passes there: w - plane = 0, or a half-plane's plane = 0
+    uint by;
+    uint layer;
+    bool front;
+};
+
+struct SpaClip {
+    float s0;
+    float s1;
+    uint by0;
+    uint by1;
+};
+
+SPA_FUNCTION float spa_at(SpaPlane plane, float u, float v) { return plane.c + plane.u * u + plane.v * v; }
+
+SPA_FUNCTION SpaPlane spa_load_plane(SpaMap map, uint place) {
+    SpaPlane plane;
+    plane.c = spa_float(spa_load(map.words, place));
+    plane.u = spa_float(spa_load(map.words, place + 1u));
+    plane.v = spa_float(spa_load(map.words, place + 2u));
+    return plane;
+}
+
+// The plane through a pure triangle's samples of one surface.
+SPA_FUNCTION SpaPlane spa_sample_plane(SpaMap map, SpaTriangle tri, uint surface) {
+    uint place = map.samples + surface * (map.width * map.height) + tri.corner;
+    float w10 = spa_float(spa_load(map.words, place + tri.step_x));
+    float w01 = spa_float(spa_load(map.words, place + tri.step_y));
+    SpaPlane plane;
+    if (tri.beyond == 0u) {
+        float w00 = spa_float(spa_load(map.words, place));
+        plane.c = w00;
+        plane.u = w10 - w00;
+        plane.v = w01 - w00;
+    } else {
+        float w11 = spa_float(spa_load(map.words, place + tri.step_x + tri.step_y));
+        plane.u = w11 - w01;
+        plane.v = w11 - w10;
+        plane.c = w11 - (plane.u + plane.v);
+    }
+    return plane;
+}
+
+SPA_FUNCTION SpaPrism spa_prism(SpaMap map, SpaTriangle tri, uint index) {
+    SpaPrism prism;
+    if (tri.prisms == SPA_PURE) {
+        prism.outer = spa_sample_plane(map, tri, 2u * index);
+        prism.inner.c = SPA_FAR;
+        prism.inner.u = 0.0f;
+        prism.inner.v = 0.0f;
+        if (map.surfaces > 1u) prism.inner = spa_sample_plane(map, tri, 2u * index + 1u);
+        prism.layer = index;
+        prism.half_planes = 0u;
+        prism.first = 0u;
+        prism.open = false;
+    } else {
+        uint place = tri.first + index * SPA_PRISM_WORDS;
+        uint properties = spa_load(map.words, place + 6u);
+        prism.outer = spa_load_plane(map, place);
+        prism.inner = spa_load_plane(map, place + 3u);
+        prism.layer = properties & 0xFFFFu;
+        prism.half_planes = (properties >> 16u) & 0xFFu;
+        prism.first = spa_load(map.words, place + 7u);
+        prism.open = (properties & SPA_PRISM_OPEN) != 0u;
+    }
+    return prism;
+}
+
+// How many prisms to look at.
+SPA_FUNCTION uint spa_prisms(SpaMap map, SpaTriangle tri) {
+    return tri.prisms == SPA_PURE ? (map.surfaces + 1u) / 2u : tri.prisms;
+}
+
+// Keeps of `clip` what lies where a function is >= 0 that has the values g0 and g1 at the piece's ends. Never
+// asks for a change of sign: what is inside at an end stays inside there.
+SPA_FUNCTION void spa_clip(SPA_INOUT(SpaClip) clip, SpaPiece piece, float g0, float g1, uint by) {
+    if (g0 < 0.0f && g1 < 0.0f) {
+        clip.s1 = -1.0f;
+    } else if (g0 < 0.0f) {
+        float s = piece.s0 + (piece.s1 - piece.s0) * (g0 / (g0 - g1));
+        if (s > clip.s0) {
+            clip.s0 = s;
+            clip.by0 = by;
+        }
+    } else if (g1 < 0.0f) {
+        float s = piece.s0 + (piece.s1 - piece.s0) * (g0 / (g0 - g1));
+        if (s < clip.s1) {
+            clip.s1 = s;
+            clip.by1 = by;
+        }
+    }
+}
+
+// The piece inside a prism; empty if s1 < s0.
+SPA_FUNCTION SpaClip spa_clip_prism(SpaMap map, SpaPrism prism, SpaPiece piece) {
+    SpaClip clip;
+    clip.s0 = piece.s0;
+    clip.s1 = piece.s1;
+    clip.by0 = SPA_BY_EDGE;
+    clip.by1 = SPA_BY_EDGE;
+    spa_clip(clip, piece, piece.w0 - spa_at(prism.outer, piece.u0, piece.v0),
+             piece.w1 - spa_at(prism.outer, piece.u1, piece.v1), SPA_BY_OUTER);
+    if (prism.inner.c < SPA_FAR)
+        spa_clip(clip, piece, spa_at(prism.inner, piece.u0, piece.v0) - piece.w0,
+                 spa_at(prism.inner, piece.u1, piece.v1) - piece.w1, SPA_BY_INNER);
+    for (uint n = 0u; n < prism.half_planes; n += 1u) {
+        SpaPlane plane = spa_load_plane(map, prism.first + 3u * n);
+        spa_clip(clip, piece, spa_at(plane, piece.u0, piece.v0) + SPA_OVERLAP,
+                 spa_at(plane, piece.u1, piece.v1) + SPA_OVERLAP, SPA_BY_HALF_PLANE + n);
+    }
+    return clip;
+}
+
+// The edge of the triangle that is nearest to a place in it, as a half-plane.
+SPA_FUNCTION SpaPlane spa_edge(uint beyond, float u, float v) {
+    SpaPlane edge;
+    float a = beyond == 0u ? u : 1.0f - u;
+    float b = beyond == 0u ? v : 1.0f - v;
+    float c = 1.0f - a - b;
+    float turn = beyond == 0u ? 1.0f : -1.0f;
+    edge.c = beyond == 0u ? 0.0f : 1.0f;
+    edge.u = turn;
+    edge.v = 0.0f;
+    if (b < a && b <= c) {
+        edge.u = 0.0f;
+        edge.v = turn;
+    } else if (c < a && c < b) {
+        edge.c = beyond == 0u ? 1.0f : -1.0f;
+        edge.u = -turn;
+        edge.v = -turn;
+    }
+    return edge;
+}
+
+// What the ray passes at sigma s, one end of a prism's clip.
+SPA_FUNCTION SpaEvent spa_event(SpaMap map, SpaTriangle tri, SpaPrism prism, SpaPiece piece, float s, uint by,
+                                bool front) {
+    SpaEvent event;
+    event.s = s;
+    event.by = by;
+    event.layer = prism.layer;
+    event.front = front;
+    event.plane = prism.outer;
+    if (by == SPA_BY_INNER) event.plane = prism.inner;
+    if (by >= SPA_BY_HALF_PLANE)
+        event.plane = spa_load_plane(map, prism.first + 3u * (by - SPA_BY_HALF_PLANE));
+    if (by == SPA_BY_EDGE) {
+        float f = piece.s1 > piece.s0 ? (s - piece.s0) / (piece.s1 - piece.s0) : 0.0f;
+        float u = piece.u0 + f * (piece.u1 - piece.u0);
+        float v = piece.v0 + f * (piece.v1 - piece.v0);
+        float w = piece.w0 + f * (piece.w1 - piece.w0);
+        if (abs(w - spa_at(prism.outer, u, v)) <= SPA_STEP * w) {
+            event.by = SPA_BY_OUTER;
+        } else if (abs(w - spa_at(prism.inner, u, v)) <= SPA_STEP * w) {
+            event.by = SPA_BY_INNER;
+            event.plane = prism.inner;
+        } else {
+            event.plane = spa_edge(tri.beyond, u, v);
+        }
+    }
+    return event;
+}
+
+SPA_FUNCTION bool spa_silent(SpaPrism prism, SpaEvent event, uint flags) {
+    bool wall = event.by == SPA_BY_EDGE || event.by >= SPA_BY_HALF_PLANE;
+    if (wall && prism.open) return true;
+    return (flags & (event.front ? SPA_CULL_FRONT : SPA_CULL_BACK)) != 0u;
+}
+
+// Follows the ray through one triangle. state: whether the ray is in the solid, before and after. True:
+// `event` is to be reported.
+SPA_FUNCTION bool spa_cross(SpaMap map, SpaTriangle tri, SpaPiece piece, uint flags, SPA_INOUT(uint) state,
+                            SPA_INOUT(SpaEvent) event) {
+    uint count = spa_prisms(map, tri);
+    float at = piece.s0;
+    if (state == SPA_UNKNOWN) {
+        state = SPA_OUTSIDE;
+        for (uint n = 0u; n < count; n += 1u) {
+            SpaClip clip = spa_clip_prism(map, spa_prism(map, tri, n), piece);
+            if (clip.s0 <= at && clip.s1 >= at) state = SPA_INSIDE;
+        }
+    }
+    // Every turn passes one end of a prism.
+    for (uint turn = 0u; turn <= 2u * count; turn += 1u) {
+        SpaPrism found = spa_prism(map, tri, 0u);
+        uint by = SPA_BY_EDGE;
+        float s = 2.0f;
+        if (state == SPA_OUTSIDE) {
+            for (uint n = 0u; n < count; n += 1u) {
+                SpaPrism prism = spa_prism(map, tri, n);
+                SpaClip clip = spa_clip_prism(map, prism, piece);
+                bool ahead = clip.s0 <= clip.s1 && (clip.s1 > at || turn == 0u);
+                if (ahead && max(clip.s0, at) < s) {
+                    s = max(clip.s0, at);
+                    by = clip.s0 >= at ? clip.by0 : SPA_BY_EDGE;
+                    found = prism;
+                }
+            }
+            if (s > 1.5f) return false;
+            state = SPA_INSIDE;
+            event = spa_event(map, tri, found, piece, s, by, true);
+        } else {
+            s = at;
+            bool grows = true;
+            for (uint m = 0u; m < count && grows; m += 1u) {
+                grows = false;
+                for (uint n = 0u; n < count; n += 1u) {
+                    SpaPrism prism = spa_prism(map, tri, n);
+                    SpaClip clip = spa_clip_prism(map, prism, piece);
+                    if (clip.s0 <= s && clip.s1 > s) {
+                        s = clip.s1;
+                        by = clip.by1;
+                        found = prism;
+                        grows = true;
+                    }
+                }
+            }
+            if (s >= piece.s1) return false;
+            state = SPA_OUTSIDE;
+            event = spa_event(map, tri, found, piece, s, by, false);
+        }
+        at = s;
+        if (!spa_silent(found, event, flags)) return true;
+    }
+    return false;
+}
+
+SPA_END
+
+#endif

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+// The projective trace: exact for the stored surface (../docs/tracing.md), on octahedral maps.
+//
+// In each octant that the ray crosses (at most four) it is a straight segment over the map's cells with w
+// linear in sigma (spa_stretch.h). Over each quadrant lies a pyramid of nodes with the ranges of w in which
+// anything is solid below them. A node that the ray's own range of w misses is skipped as a whole; otherwise
+// the walk goes down, and at a cell the ray is clipped against what stands there (spa_cell.h). Stack-free:
+// the place is a pair of integers that only grow, and the level goes up by one where a parent's border is
+// crossed.
+#ifndef SPA_PROJECTIVE_H
+#define SPA_PROJECTIVE_H
+
+#include "spa_cell.h"
+#include "spa_stretch.h"
+
+SPA_BEGIN
+
+// The walk begins with 2^SPA_START_BITS nodes a side of a quadrant.
+#define SPA_START_BITS 4u
+// Later than any sigma.
+#define SPA_NEVER 1e20f
+
+// The float of a node's code: no less than what was encoded as a lower end, no more as an upper end,
+// reversed.
+SPA_FUNCTION float spa_decode(SpaMap map, uint code) {
+    return spa_float(map.code_base + (code << map.code_shift));
+}
+
+SPA_FUNCTION bool spa_meets(SpaMap map, uint range, float low, float high) {
+    return high >= spa_decode(map, range & 0xFFFFu) && low <= spa_decode(map, range >> 16u);
+}
+
+// The place of (x, y) among the nodes (or cells) of a level with 2^bits a side: the coarsest level comes
+// first, in a level quadrant by quadrant, row by row.
+SPA_FUNCTION uint spa_node(uint bits, uint quadrant, uint x, uint y) {
+    uint before = 0x55555554u & ((1u << (2u * bits + 1u) << 1u) - 1u); // 4 (4^bits - 1)/3
+    return before + (quadrant << (2u * bits)) + (y << bits) + x;
+}
+
+SPA_FUNCTION SpaTriangle spa_triangle(SpaMap map, uint quadrant, uint x, uint y, uint beyond) {
+    SpaTriangle tri;
+    uint half_cells = (map.width - 1u) / 2u;
+    tri.step_x = (quadrant & 1u) == 0u ? 1u : 0xFFFFFFFFu;
+    tri.step_y = (quadrant & 2u) == 0u ? 0u - map.width : map.width;
+    tri.corner = half_cells * map.width + half_cells + x * tri.step_x + y * tri.step_y;
+    tri.beyond = beyond;
+    tri.prisms = SPA_PURE;
+    tri.first = 0u;
+    if (map.cells != 0u) {
+        uint lists = spa_load(map.words, map.cells + (quadrant << (2u * map.levels)) + (y << map.levels) + x);
+        if (lists != 0u) {
+            tri.first = spa_load(map.words, lists + 2u * beyond);
+            tri.prisms = spa_load(map.words, lists + 2u * beyond + 1u);
+        }
+    }
+    return tri;
+}
+
+// The ray from sigma s0 to s1 in the cell (x, y), places turned as in the stretch. True: `event`, in `piece`
+// and `tri`, is to be reported.
+SPA_FUNCTION bool spa_cross_cell(SpaMap map, SpaStretch stretch, uint x, uint y, float s0, float s1,
+                                 uint flags, SPA_INOUT(uint) state, SPA_INOUT(SpaEvent) event,
+                                 SPA_INOUT(SpaPiece) piece, SPA_INOUT(SpaTriangle) tri) {
+    float u0 = stretch.x0 + s0 * stretch.dx - float(x);
+    float v0 = stretch.y0 + s0 * stretch.dy - float(y);
+    float u1 = stretch.x0 + s1 * stretch.dx - float(x);
+    float v1 = stretch.y0 + s1 * stretch.dy - float(y);
+    if (stretch.flip_x != 0u) {
+        u0 = 1.0f - u0;
+        u1 = 1.0f - u1;
+    }
+    if (stretch.flip_y != 0u) {
+        v0 = 1.0f - v0;
+        v1 = 1.0f - v1;
+    }
+    float w0 = stretch.w0 + s0 * stretch.dw;
+    float w1 = stretch.w0 + s1 * stretch.dw;
+    float g0 = u0 + v0 - 1.0f; // beyond the diagonal
+    float g1 = u1 + v1 - 1.0f;
+    bool two = (g0 < 0.0f && g1 > 0.0f) || (g0 > 0.0f && g1 < 0.0f);
+    float f = two ? g0 / (g0 - g1) : 1.0f;
+    float sm = two ? s0 + (s1 - s0) * f : s1;
+    float um = two ? u0 + (u1 - u0) * f : u1;
+    float vm = two ? v0 + (v1 - v0) * f : v1;
+    float wm = two ? w0 + (w1 - w0) * f : w1;
+    uint beyond = g0 + g1 > 0.0f ? 1u : 0u;
+    if (two) beyond = g0 > 0.0f ? 1u : 0u;
+    for (uint n = 0u; n < 2u; n += 1u) {
+        piece.s0 = n == 0u ? s0 : sm;
+        piece.u0 = n == 0u ? u0 : um;
+        piece.v0 = n == 0u ? v0 : vm;
+        piece.w0 = n == 0u ? w0 : wm;
+        piece.s1 = n == 0u ? sm : s1;
+        piece.u1 = n == 0u ? um : u1;
+        piece.v1 = n == 0u ? vm : v1;
+        piece.w1 = n == 0u ? wm : w1;
+        tri = spa_triangle(map, stretch.quadrant, x ^ stretch.flip_x, y ^ stretch.flip_y,
+                           n == 0u ? beyond : 1u - beyond);
+        if (spa_cross(map, tri, piece, flags, state, event)) return true;
+        if (!two) return false;
+    }
+    return false;
+}
+
+// The gradient of plane(p) * l(p), linear in map space, for a plane over the cell (x, y) (w - plane = 0 is
+// the same as plane * l = 1).
+SPA_FUNCTION float3 spa_gradient(SpaMap map, SpaStretch stretch, SpaPlane plane, uint x, uint y,
+                                 uint beyond) {
+    uint cells = (map.width - 1u) / 2u;
+    float gx = plane.u * float(cells);
+    float gy = plane.v * float(cells);
+    float gl = plane.c - plane.u * float(x) - plane.v * float(y);
+    bool upper = x + y + beyond < cells;
+    float3 gradient = float3(gl + gx, gl + gy, upper ? gl : gl + gx + gy);
+    return float3(stretch.signs.x * gradient.x, stretch.signs.y * gradient.y,
+                  upper ? gradient.z : -gradient.z);
+}
+
+// plane(p) * l(p) at time t, evaluated from the cell's corner.
+SPA_FUNCTION float spa_plane_at(SpaMap map, SpaStretch stretch, float3 foot, float3 direction, SpaPlane plane,
+                                uint x, uint y, float t) {
+    float cells = float((map.width - 1u) / 2u);
+    float a = stretch.signs.x * (foot.x + direction.x * t);
+    float b = stretch.signs.y * (foot.y + direction.y * t);
+    float c = stretch.signs.z * (foot.z + direction.z * t);
+    float l = a + b + c;
+    if (stretch.signs.z < 0.0f) {
+        a = a + c;
+        b = b + c;
+    }
+    return plane.c * l + plane.u * (cells * a - float(x) * l) + plane.v * (cells * b - float(y) * l);
+}
+
+// Fills the record of an event.
+SPA_FUNCTION SpaHit spa_finish(SpaMap map, SpaRay ray, SpaChord chord, SpaStretch stretch, SpaEvent event,
+                               SpaPiece piece, SpaTriangle tri, uint x, uint y) {
+    uint real_x = x ^ stretch.flip_x;
+    uint real_y = y ^ stretch.flip_y;
+    bool surface = event.by == SPA_BY_OUTER || event.by == SPA_BY_INNER;
+    float t = spa_time(stretch, event.s);
+    if (surface) {
+        // The plane itself is linear in t, which loses less than sigma does.
+        float ta = spa_time(stretch, piece.s0);
+        float tb = spa_time(stretch, piece.s1);
+        float ga =
+            spa_plane_at(map, stretch, chord.foot, ray.direction, event.plane, real_x, real_y, ta) - 1.0f;
+        float gb =
+            spa_plane_at(map, stretch, chord.foot, ray.direction, event.plane, real_x, real_y, tb) - 1.0f;
+        if ((ga < 0.0f) != (gb < 0.0f)) t = min(max(ta + (tb - ta) * (ga / (ga - gb)), ta), tb);
+    }
+    float3 normal = spa_gradient(map, stretch, event.plane, real_x, real_y, tri.beyond);
+    if (event.by != SPA_BY_OUTER) normal = normal * -1.0f;
+    float px = stretch.x0 + event.s * stretch.dx;
+    float py = stretch.y0 + event.s * stretch.dy;
+    float side = float(1u << map.levels);
+    if (stretch.flip_x != 0u) px = side - px;
+    if (stretch.flip_y != 0u) py = side - py;
+    float cells = float(map.width - 1u);
+    SpaHit hit;
+    hit.t = min(max(t + chord.foot_t, ray.t_min), ray.t_max);
+    hit.map = float2(0.5f + stretch.signs.x * px / cells, 0.5f - stretch.signs.y * py / cells);
+    hit.normal = normal;
+    hit.layer = event.layer;
+    hit.side = surface ? (event.by == SPA_BY_OUTER ? SPA_OUTER : SPA_INNER) : SPA_WALL;
+    hit.front = event.front ? 1u : 0u;
+    return hit;
+}
+
+// Where a walk over a stretch has come to.
+struct SpaWalk {
+    uint x; // turned
+    uint y;
+    float s0;
+    float s1;
+};
+
+// Follows one stretch. True: the ray has an event to report in the cell of `walk`.
+SPA_FUNCTION bool spa_walk(SpaMap map, SpaStretch stretch, uint flags, SPA_INOUT(uint) state,
+                           SPA_INOUT(SpaEvent) event, SPA_INOUT(SpaPiece) piece, SPA_INOUT(SpaTriangle) tri,
+                           SPA_INOUT(SpaWalk) walk) {
+    uint start = map.levels > SPA_START_BITS ? map.levels - SPA_START_BITS : 0u;
+    uint words = (map.flags & SPA_MAP_TWO_RANGES) != 0u ? 2u : 1u;
+    uint level = start;
+    bool go_x = stretch.dx > 0.0f;
+    bool go_y = stretch.dy > 0.0f;
+    float per_x = go_x ? 1.0f / max(stretch.dx, 1e-20f) : 0.0f;
+    float per_y = go_y ? 1.0f / max(stretch.dy, 1e-20f) : 0.0f;
+    uint end_x = uint(stretch.end_x);
+    uint end_y = uint(stretch.end_y);
+    uint x = min(uint(stretch.x0), end_x - 1u);
+    uint y = min(uint(stretch.y0), end_y - 1u);
+    float s = 0.0f;
+    // x + y grows with every step that does not go down.
+    uint bound = (end_x + end_y + 2u) * (start + 2u);
+    for (uint step = 0u; step < bound; step += 1u) {
+        // In the solid the nodes say nothing about where it ends.
+        if (state != SPA_OUTSIDE) level = 0u;
+        uint next_x = ((x >> level) + 1u) << level;
+        uint next_y = ((y >> level) + 1u) << level;
+        float exit_x = go_x && next_x < end_x ? (float(next_x) - stretch.x0) * per_x : SPA_NEVER;
+        float exit_y = go_y && next_y < end_y ? (float(next_y) - stretch.y0) * per_y : SPA_NEVER;
+        float s1 = max(min(min(exit_x, exit_y), 1.0f), s);
+        float wa = min(stretch.w0 + s * stretch.dw, map.w_max);
+        float wb = min(stretch.w0 + s1 * stretch.dw, map.w_max);
+        float low = min(wa, wb);
+        float high = max(wa, wb);
+        bool meets = state != SPA_OUTSIDE;
+        if (!meets) {
+            uint node =
+                map.nodes + words * spa_node(map.levels - level, stretch.quadrant,
+                                             (x ^ stretch.flip_x) >> level, (y ^ stretch.flip_y) >> level);
+            meets = spa_meets(map, spa_load(map.words, node), low, high);
+            if (!meets && words == 2u) meets = spa_meets(map, spa_load(map.words, node + 1u), low, high);
+        }
+        if (meets && level > 0u) {
+            level -= 1u;
+        } else {
+            if (meets && spa_cross_cell(map, stretch, x, y, s, s1, flags, state, event, piece, tri)) {
+                walk.x = x;
+                walk.y = y;
+                walk.s0 = s;
+                walk.s1 = s1;
+                return true;
+            }
+            if (s1 >= 1.0f) return false;
+            bool by_x = exit_x <= exit_y;
+            bool climb = false;
+            if (by_x) {
+                x = next_x;
+                y = max(y, min(uint(max(stretch.y0 + s1 * stretch.dy, 0.0f)), next_y - 1u));
+                climb = ((x >> level) & 1u) == 0u;
+            } else {
+                y = next_y;
+                x = max(x, min(uint(max(stretch.x0 + s1 * stretch.dx, 0.0f)), next_x - 1u));
+                climb = ((y >> level) & 1u) == 0u;
+            }
+            y = min(y, end_y - 1u);
+            x = min(x, end_x - 1u);
+            s = s1;
+            if (climb) level = min(level + 1u, start);
+        }
+    }
+    return false;
+}
+
+// The first hit of the ray with t_min <= t <= t_max. flags: SPA_CULL_..., SPA_ANY_HIT.
+SPA_FUNCTION bool spa_trace_projective(SpaMap map, SpaRay ray, uint flags, SPA_OUT(SpaHit) hit) {
+    hit = spa_no_hit();
+    if (map.mapping != SPA_OCTAHEDRAL) return false;
+    SpaChord chord;
+    if (!spa_chord(ray, map.radius, chord)) return false;
+    float3 crossings = float3(spa_crossing(chord.foot.x, ray.direction.x, chord.t0, chord.t1),
+                              spa_crossing(chord.foot.y, ray.direction.y, chord.t0, chord.t1),
+                              spa_crossing(chord.foot.z, ray.direction.z, chord.t0, chord.t1));
+    float low = min(crossings.x, crossings.y);
+    float high = max(crossings.x, crossings.y);
+    float first = min(low, crossings.z);
+    float second = max(low, min(high, crossings.z));
+    float third = max(high, crossings.z);
+    uint state = chord.starts_inside_sphere ? SPA_UNKNOWN : SPA_OUTSIDE;
+    SpaEvent event;
+    event.s = 0.0f;
+    event.plane.c = 0.0f;
+    event.plane.u = 0.0f;
+    event.plane.v = 0.0f;
+    event.by = SPA_BY_EDGE;
+    event.layer = 0u;
+    event.front = true;
+    SpaPiece piece;
+    piece.s0 = 0.0f;
+    piece.u0 = 0.0f;
+    piece.v0 = 0.0f;
+    piece.w0 = 0.0f;
+    piece.s1 = 0.0f;
+    piece.u1 = 0.0f;
+    piece.v1 = 0.0f;
+    piece.w1 = 0.0f;
+    SpaTriangle tri = spa_triangle(map, 0u, 0u, 0u, 0u);
+    SpaWalk walk;
+    walk.x = 0u;
+    walk.y = 0u;
+    walk.s0 = 0.0f;
+    walk.s1 = 0.0f;
+    float from = chord.t0;
+    for (uint n = 0u; n < 4u; n += 1u) {
+        float to = n == 0u ? first : (n == 1u ? second : (n == 2u ? third : chord.t1));
+        SpaStretch stretch;
+        if (from < to && spa_stretch(map, chord.foot, ray.direction, crossings, from, to, stretch) &&
+            spa_walk(map, stretch, flags, state, event, piece, tri, walk)) {
+            if ((flags & SPA_ANY_HIT) == 0u) {
+                hit = spa_finish(map, ray, chord, stretch, event, piece, tri, walk.x, walk.y);
+            } else {
+                hit.t = min(max(spa_time(stretch, event.s) + chord.foot_t, ray.t_min), ray.t_max);
+            }
+            return true;
+        }
+        from = max(from, to);
+    }
+    return false;
+}
+
+SPA_END
+
+#endif
