@@ -3,12 +3,12 @@
 // places are indices of words from the header's first, so an image may lie anywhere.
 //
 //   nodes      bounds of the surface, a pyramid over each quadrant of the octahedral map (spa_projective.h)
-//   samples    W of every sample and surface: 1/|q|_1 of the stored point q (map space); SPA_FAR = none
-//   there,
-//              or as an inner end: reaches the centre. Plane by plane: outer 0, inner 0, outer 1, ...
-//   cells      one word a cell and quadrant: 0 = both triangles are pure, else where its two lists of prisms
-//   are prisms     what stands in mixed triangles depths     r/R of the outermost surface, one float a
-//   sample: what fan and march read images     colours and normals of every surface
+//   samples    W of every sample and surface: 1/|q|_1 of the stored point q (map space); SPA_FAR = none;
+//              as an inner end: the centre is reached. Plane by plane: outer 0, inner 0, outer 1, ...
+//   cells      one word a cell and quadrant: 0 = both triangles are pure, else where its lists of prisms are
+//   prisms     what stands in mixed triangles
+//   depths     r/R of the outermost surface, one float a sample: what fan and march read
+//   images     colours and normals of every surface
 #ifndef SPA_MAP_H
 #define SPA_MAP_H
 
@@ -52,6 +52,9 @@ SPA_BEGIN
 // For each surface: where its colours (rgba8) are, their width and height, and the same of the normals (two
 // snorm16, octahedral). Width 0: there is no such image.
 #define SPA_IMAGE_WORDS 6u
+
+// In place of a normal: no surface there.
+#define SPA_NO_NORMAL 0x80008000u
 
 // Flags of a trace.
 #define SPA_CULL_BACK 1u  // hits from inside the solid are passed over

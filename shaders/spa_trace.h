@@ -17,10 +17,9 @@
 #ifndef SPA_TRACE_H
 #define SPA_TRACE_H
 
-#include "spa_language.h"
-
-#include "spa_map.h"
-
+#include "spa_fan.h"
+#include "spa_march.h"
 #include "spa_projective.h"
+#include "spa_shade.h"
 
 #endif

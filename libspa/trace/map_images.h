@@ -15,8 +15,8 @@ struct MapImages {
     std::vector<std::uint32_t> words;
 };
 
-// surfaces: as MapSamples::surfaces. Normals of any element format become octahedral snorm16; one of length
-// zero becomes +Z, as depth tells that there is none.
+// surfaces: as MapSamples::surfaces. Normals of any element format become octahedral snorm16; where there is
+// no surface, SPA_NO_NORMAL.
 MapImages read_images(const Part& part, std::uint32_t surfaces);
 
 } // namespace spa::trace
