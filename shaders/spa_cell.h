@@ -153,7 +153,7 @@ SPA_FUNCTION void spa_clip(SPA_INOUT(SpaClip) clip, SpaPiece piece, float g0, fl
     if (g0 < 0.0f && g1 < 0.0f) {
         clip.s1 = -1.0f;
     } else if (g0 < 0.0f) {
-        float s = piece.s0 + (piece.s1 - piece.s0) * (g0 / (g0 - g1));
+        float s = min(piece.s0 + (piece.s1 - piece.s0) * (g0 / (g0 - g1)), piece.s1);
         if (s > clip.s0) {
             clip.s0 = s;
             clip.by0 = by;

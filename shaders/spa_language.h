@@ -53,8 +53,10 @@ inline float3 operator-(float3 a, float3 b) { return {a.x - b.x, a.y - b.y, a.z 
 inline float3 operator*(float3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
 inline float dot(float3 a, float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-inline float min(float a, float b) { return b < a ? b : a; }
-inline float max(float a, float b) { return a < b ? b : a; }
+// As processors have it, so that vectors and scalars agree about zeros and NaN: the second if they are not
+// ordered.
+inline float min(float a, float b) { return a < b ? a : b; }
+inline float max(float a, float b) { return a > b ? a : b; }
 inline uint min(uint a, uint b) { return b < a ? b : a; }
 inline uint max(uint a, uint b) { return a < b ? b : a; }
 inline float abs(float a) { return std::fabs(a); }

@@ -1,17 +1,193 @@
 // SPDX-License-Identifier: Apache-2.0
+// Streams of rays: blocks go through the steps of stream_block.h, compiled once for each instruction set by
+// Highway.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libspa/trace/stream.cpp"
+// Vectors are members of structs here, which those without a fixed length cannot be.
+// SSSE3 nobody has without SSE4.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV | HWY_SSSE3)
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "stream_finish-inl.h"
+#include "stream_setup-inl.h"
+#include "stream_walk-inl.h"
+
+#include "convert.h"
 #include "trace.h"
 
+#include <algorithm>
+#include <cstring>
+
+HWY_BEFORE_NAMESPACE();
+namespace spa::trace::HWY_NAMESPACE {
+
+// What is done with what is found.
+struct HitSink {
+    static constexpr bool wants_record = true;
+    Hit* hits;
+
+    void clear(std::size_t count) const { std::fill_n(hits, count, Hit{}); }
+    void put(std::size_t ray, const HitBlock& found, std::size_t lane) const {
+        Hit& hit = hits[ray];
+        hit.t = found.t[lane];
+        hit.normal = {found.normal_x[lane], found.normal_y[lane], found.normal_z[lane]};
+        hit.map = {found.map_x[lane], found.map_y[lane]};
+        hit.layer = found.layer[lane];
+        hit.side = found.inner[lane] != 0 ? HitSide::inner : HitSide::outer;
+    }
+    void trace(const TraceMap& map, const Ray& ray, std::uint32_t flags, std::size_t index) const {
+        closest_hit(map, ray, flags, hits[index]);
+    }
+};
+
+struct OcclusionSink {
+    static constexpr bool wants_record = false;
+    std::uint8_t* blocked;
+
+    void clear(std::size_t count) const { std::fill_n(blocked, count, std::uint8_t(0)); }
+    void put(std::size_t ray) const { blocked[ray] = 1; }
+    void trace(const TraceMap& map, const Ray& ray, std::uint32_t flags, std::size_t index) const {
+        blocked[index] = occluded(map, ray, flags) ? 1 : 0;
+    }
+};
+
+// What is not a hit on a pure cell: the text looks at the one cell, or traces the ray.
+template <class Sink>
+void finish_by_text(const TraceMap& map, const StreamBlock& block, std::size_t job, Found found,
+                    const Ray* rays, std::uint32_t flags, const Sink& sink) {
+    const std::size_t chord = block.stretches.chord[job];
+    const std::size_t ray = block.chords.ray[chord];
+    if (found == Found::unusual) {
+        sink.trace(map, rays[ray], flags, ray);
+        return;
+    }
+    if constexpr (Sink::wants_record) {
+        const shader::SpaStretch stretch = load_stretch(map.map(), block.stretches, job);
+        shader::SpaEvent event{};
+        shader::SpaPiece piece{};
+        shader::SpaTriangle tri{};
+        // A ray that may start in the solid does not, or it would be unusual.
+        shader::uint state = SPA_OUTSIDE;
+        const ResultBlock& results = block.results;
+        shader::spa_cross_cell(map.map(), stretch, results.x[job], results.y[job], results.s0[job],
+                               results.s1[job], flags, state, event, piece, tri);
+        const ChordBlock& chords = block.chords;
+        shader::SpaChord of_ray{};
+        of_ray.foot = {chords.foot_x[chord], chords.foot_y[chord], chords.foot_z[chord]};
+        of_ray.foot_t = chords.foot_t[chord];
+        sink.hits[ray] = to_hit(shader::spa_finish(map.map(), to_shader(rays[ray]), of_ray, stretch, event,
+                                                   piece, tri, results.x[job], results.y[job]));
+    } else {
+        sink.put(ray);
+    }
+}
+
+template <bool with_inner, class Sink>
+void finish_pass(const TraceMap& map, StreamBlock& block, const Ray* rays, std::uint32_t flags,
+                 const Sink& sink) {
+    const std::size_t lane_count = hn::Lanes(du);
+    const ResultBlock& results = block.results;
+    HitBlock hits{};
+    for (std::size_t first = 0; first < block.stretches.count; first += lane_count) {
+        const VU kinds = hn::LoadU(du, results.found + first);
+        if constexpr (Sink::wants_record) {
+            const MU surface = hn::Eq(kinds, hn::Set(du, std::uint32_t(Found::surface)));
+            if (!hn::AllFalse(du, surface))
+                finish<with_inner>(map.map(), block.chords, block.stretches, results, rays, first, hits);
+        }
+        const std::size_t last = std::min(first + lane_count, block.stretches.count);
+        for (std::size_t job = first; job < last; ++job) {
+            const auto found = Found(results.found[job]);
+            if (found == Found::nothing) continue;
+            const std::size_t chord = block.stretches.chord[job];
+            block.chords.done[chord] = UINT32_MAX;
+            if constexpr (Sink::wants_record) {
+                if (found == Found::surface && hits.by_text[job - first] == 0) {
+                    sink.put(block.chords.ray[chord], hits, job - first);
+                    continue;
+                }
+            }
+            finish_by_text(map, block, job, found, rays, flags, sink);
+        }
+    }
+}
+
+template <bool with_inner, class Sink>
+void trace_blocks(const TraceMap& map, const Ray* rays, std::size_t count, std::uint32_t flags, Sink sink) {
+    StreamBlock block;
+    for (std::size_t first = 0; first < count; first += block_rays) {
+        const std::size_t n = std::min(count - first, block_rays);
+        sink.clear(n);
+        find_chords(map.map(), rays + first, n, block.chords);
+        for (std::size_t pass = 0; pass < 4; ++pass) {
+            find_stretches(map.map(), pass, block.chords, block.stretches);
+            if (block.stretches.count == 0) continue;
+            std::fill_n(block.results.found + 0, block.stretches.count, std::uint32_t(Found::nothing));
+            walk<with_inner>(map.map(), block.stretches, block.results);
+            finish_pass<with_inner>(map, block, rays + first, flags, sink);
+        }
+        if constexpr (Sink::wants_record)
+            sink.hits += n;
+        else
+            sink.blocked += n;
+    }
+}
+
+void hits_of_stream(const TraceMap& map, const Ray* rays, std::size_t count, std::uint32_t flags, Hit* hits) {
+    if (map.map().surfaces == 1)
+        trace_blocks<false>(map, rays, count, flags, HitSink{hits});
+    else
+        trace_blocks<true>(map, rays, count, flags, HitSink{hits});
+}
+
+void occlusion_of_stream(const TraceMap& map, const Ray* rays, std::size_t count, std::uint32_t flags,
+                         std::uint8_t* blocked) {
+    if (map.map().surfaces == 1)
+        trace_blocks<false>(map, rays, count, flags, OcclusionSink{blocked});
+    else
+        trace_blocks<true>(map, rays, count, flags, OcclusionSink{blocked});
+}
+
+const char* target_name() { return hwy::TargetName(HWY_TARGET); }
+
+} // namespace spa::trace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace spa::trace {
 
+HWY_EXPORT(hits_of_stream);
+HWY_EXPORT(occlusion_of_stream);
+HWY_EXPORT(target_name);
+
+namespace {
+
+// What the vectors do not know: maps without a walk, and rays that look for back faces alone.
+bool is_for_text(const TraceMap& map, std::uint32_t flags) {
+    return map.map().mapping != SPA_OCTAHEDRAL || (flags & SPA_CULL_FRONT) != 0;
+}
+
+} // namespace
+
 void closest_hits(const TraceMap& map, std::span<const Ray> rays, std::uint32_t flags, std::span<Hit> hits) {
-    for (std::size_t i = 0; i < rays.size(); ++i) closest_hit(map, rays[i], flags, hits[i]);
+    if (is_for_text(map, flags)) {
+        for (std::size_t i = 0; i < rays.size(); ++i) closest_hit(map, rays[i], flags, hits[i]);
+        return;
+    }
+    HWY_DYNAMIC_DISPATCH(hits_of_stream)(map, rays.data(), rays.size(), flags, hits.data());
 }
 
 void occluded(const TraceMap& map, std::span<const Ray> rays, std::uint32_t flags,
               std::span<std::uint8_t> blocked) {
-    for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = occluded(map, rays[i], flags) ? 1 : 0;
+    if (is_for_text(map, flags)) {
+        for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = occluded(map, rays[i], flags) ? 1 : 0;
+        return;
+    }
+    HWY_DYNAMIC_DISPATCH(occlusion_of_stream)(map, rays.data(), rays.size(), flags, blocked.data());
 }
 
-const char* stream_target() { return "scalar"; }
+const char* stream_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }
 
 } // namespace spa::trace
+#endif

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// The memory of a stream trace: structures of arrays that one block of rays goes through.
+//
+//   rays ──setup──▶ chords ──stretches──▶ jobs ──walk──▶ results ──finish──▶ hits
+//                     └──────────── up to four times, one octant each ────────┘
+#pragma once
+
+#include "../../shaders/spa_trace.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace spa::trace {
+
+// Rays of a block: enough to fill vectors while lanes wait for each other, few enough to stay in the cache.
+constexpr std::size_t block_rays = 1024;
+// Vectors are stored whole.
+constexpr std::size_t block_room = block_rays + 64;
+
+template <class T>
+struct alignas(64) BlockArray {
+    T value[block_room];
+    T* operator+(std::size_t i) { return value + i; }
+    const T* operator+(std::size_t i) const { return value + i; }
+    T& operator[](std::size_t i) { return value[i]; }
+    const T& operator[](std::size_t i) const { return value[i]; }
+};
+
+using Floats = BlockArray<float>;
+using Words = BlockArray<std::uint32_t>;
+
+// Rays that meet the map's sphere (SpaChord), and when they cross the coordinate planes.
+struct ChordBlock {
+    std::size_t count = 0;
+    Words ray; // index in the block
+    Floats foot_x, foot_y, foot_z, foot_t, direction_x, direction_y, direction_z;
+    Floats cross_x, cross_y, cross_z; // times, clamped to the chord
+    Floats time[5];                   // t0, the same times ascending, t1
+    Words unknown;                    // all bits: whether the ray starts in the solid is to be found out
+    Words done;                       // all bits: nothing more to trace
+};
+
+// Bits of StretchBlock::turn.
+constexpr std::uint32_t turn_quadrant = 3; // as SpaStretch::quadrant: negative x, y
+constexpr std::uint32_t turn_lower = 4;    // negative z
+constexpr std::uint32_t turn_flip_x = 8, turn_flip_y = 16;
+constexpr std::uint32_t turn_unknown = 32;
+
+// Stretches to walk (SpaStretch): the jobs of one pass.
+struct StretchBlock {
+    std::size_t count = 0;
+    Words chord; // index into the chords
+    Floats x0, y0, w0, dx, dy, dw, ta, tb;
+    Words turn;
+};
+
+enum class Found : std::uint32_t {
+    nothing = 0,
+    surface, // in a pure cell: what finish can fill by vectors
+    event,   // anything else in one cell: the text fills it
+    unusual, // the ray starts in the solid, or goes through an open wall: the text traces it from the start
+};
+
+// What came of each job.
+struct ResultBlock {
+    Words found; // Found
+    Words x, y;  // turned cell
+    Floats s0, s1;
+};
+
+struct StreamBlock {
+    ChordBlock chords;
+    StretchBlock stretches;
+    ResultBlock results;
+};
+
+inline shader::SpaStretch load_stretch(const shader::SpaMap& map, const StretchBlock& jobs, std::size_t job) {
+    const std::uint32_t turn = jobs.turn[job];
+    const std::uint32_t side = 1U << map.levels;
+    const auto half_cells = float(map.width - 1) * 0.5F;
+    shader::SpaStretch stretch{};
+    stretch.x0 = jobs.x0[job];
+    stretch.y0 = jobs.y0[job];
+    stretch.w0 = jobs.w0[job];
+    stretch.dx = jobs.dx[job];
+    stretch.dy = jobs.dy[job];
+    stretch.dw = jobs.dw[job];
+    stretch.flip_x = (turn & turn_flip_x) != 0 ? side - 1 : 0;
+    stretch.flip_y = (turn & turn_flip_y) != 0 ? side - 1 : 0;
+    stretch.end_x = (turn & turn_flip_x) != 0 ? float(side) : half_cells;
+    stretch.end_y = (turn & turn_flip_y) != 0 ? float(side) : half_cells;
+    stretch.quadrant = turn & turn_quadrant;
+    stretch.signs = {(turn & 1U) != 0 ? -1.0F : 1.0F, (turn & 2U) != 0 ? -1.0F : 1.0F,
+                     (turn & turn_lower) != 0 ? -1.0F : 1.0F};
+    stretch.ta = jobs.ta[job];
+    stretch.tb = jobs.tb[job];
+    return stretch;
+}
+
+} // namespace spa::trace

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pure cells of ../../shaders/spa_cell.h and spa_cross_cell of spa_projective.h, many rays at once: the
+// same operations in the same order, so that the answers are equal bit by bit.
+#include "stream_vectors-inl.h"
+
+#if defined(SPA_STREAM_CELL_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPA_STREAM_CELL_INL
+#undef SPA_STREAM_CELL_INL
+#else
+#define SPA_STREAM_CELL_INL
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace spa::trace::HWY_NAMESPACE {
+
+// A stretch a lane. flip_x and flip_y are all bits of a turned coordinate, else 0.
+struct StretchLanes {
+    VF x0, y0, w0, dx, dy, dw;
+    VU quadrant, flip_x, flip_y;
+};
+
+// A cell a lane: where the ray enters and leaves it, and the samples at its corners.
+struct CellLanes {
+    VU x, y; // turned
+    VF s0, s1;
+};
+
+struct PlaneLanes {
+    VF c, u, v;
+};
+
+struct PieceLanes {
+    VF s0, u0, v0, w0, s1, u1, v1, w1;
+};
+
+// The first event of the rays that come from outside: a surface or an edge of a prism of a pure triangle.
+struct CrossLanes {
+    MF any;
+    VF s;
+    MF by_edge, inner; // inner: not the outer plane but the inner one
+    VU layer;
+    VU beyond;
+    PieceLanes piece;
+    PlaneLanes plane; // the prism's outer plane, or its inner one where the ray enters there
+    MF starts_inside; // at the piece's start the ray is in the solid
+};
+
+HWY_INLINE VF plane_at(const PlaneLanes& plane, VF u, VF v) {
+    return hn::Add(hn::Add(plane.c, hn::Mul(plane.u, u)), hn::Mul(plane.v, v));
+}
+
+HWY_INLINE PieceLanes select(MF mask, const PieceLanes& a, const PieceLanes& b) {
+    return {hn::IfThenElse(mask, a.s0, b.s0), hn::IfThenElse(mask, a.u0, b.u0),
+            hn::IfThenElse(mask, a.v0, b.v0), hn::IfThenElse(mask, a.w0, b.w0),
+            hn::IfThenElse(mask, a.s1, b.s1), hn::IfThenElse(mask, a.u1, b.u1),
+            hn::IfThenElse(mask, a.v1, b.v1), hn::IfThenElse(mask, a.w1, b.w1)};
+}
+
+HWY_INLINE PlaneLanes select(MF mask, const PlaneLanes& a, const PlaneLanes& b) {
+    return {hn::IfThenElse(mask, a.c, b.c), hn::IfThenElse(mask, a.u, b.u), hn::IfThenElse(mask, a.v, b.v)};
+}
+
+// W of one surface at a cell's corners, and the planes of its two triangles (spa_sample_plane).
+struct CornerLanes {
+    VF w00, w10, w01, w11;
+
+    [[nodiscard]] HWY_INLINE PlaneLanes near() const { return {w00, hn::Sub(w10, w00), hn::Sub(w01, w00)}; }
+    [[nodiscard]] HWY_INLINE PlaneLanes beyond() const {
+        const VF u = hn::Sub(w11, w01);
+        const VF v = hn::Sub(w11, w10);
+        return {hn::Sub(w11, hn::Add(u, v)), u, v};
+    }
+    [[nodiscard]] HWY_INLINE PlaneLanes plane(MF of_beyond) const {
+        return select(of_beyond, beyond(), near());
+    }
+};
+
+// The sample at the cell's corner nearest to the map's middle, and the ways to its neighbours.
+struct CornerPlaces {
+    VI corner, step_x, step_y;
+};
+
+HWY_INLINE CornerPlaces corner_places(const shader::SpaMap& map, const StretchLanes& stretch, VU real_x,
+                                      VU real_y) {
+    const auto width = std::int32_t(map.width);
+    const std::int32_t middle = std::int32_t(map.width - 1) / 2;
+    const auto left = hn::Ne(hn::And(stretch.quadrant, hn::Set(du, 1)), hn::Zero(du));
+    const auto below = hn::Ne(hn::And(stretch.quadrant, hn::Set(du, 2)), hn::Zero(du));
+    const VI step_x = hn::IfThenElse(hn::RebindMask(di, left), hn::Set(di, -1), hn::Set(di, 1));
+    const VI step_y = hn::IfThenElse(hn::RebindMask(di, below), hn::Set(di, width), hn::Set(di, -width));
+    const VI x = hn::BitCast(di, real_x);
+    const VI along_x = hn::IfThenElse(hn::RebindMask(di, left), hn::Neg(x), x);
+    const VI corner = hn::Add(hn::Add(hn::Set(di, middle * width + middle), along_x),
+                              hn::Mul(hn::BitCast(di, real_y), step_y));
+    return {corner, step_x, step_y};
+}
+
+HWY_INLINE CornerLanes corners(const float* samples, const CornerPlaces& places) {
+    const VI x = hn::Add(places.corner, places.step_x);
+    return {hn::GatherIndex(df, samples, places.corner), hn::GatherIndex(df, samples, x),
+            hn::GatherIndex(df, samples, hn::Add(places.corner, places.step_y)),
+            hn::GatherIndex(df, samples, hn::Add(x, places.step_y))};
+}
+
+// Where a prism of two planes begins along a piece, for rays that come from outside (spa_clip_prism).
+template <bool with_inner>
+HWY_INLINE void enter_prism(const PieceLanes& piece, const PlaneLanes& outer, const PlaneLanes& inner, VF& s,
+                            MF& any, MF& by_edge, MF& by_inner, MF& starts_inside) {
+    const VF zero = hn::Zero(df);
+    const VF length = hn::Sub(piece.s1, piece.s0);
+    const VF g0 = hn::Sub(piece.w0, plane_at(outer, piece.u0, piece.v0));
+    const VF g1 = hn::Sub(piece.w1, plane_at(outer, piece.u1, piece.v1));
+    const MF before = hn::Lt(g0, zero);
+    const MF after = hn::Lt(g1, zero);
+    const VF cut = hn::Add(piece.s0, hn::Mul(length, hn::Div(g0, hn::Sub(g0, g1))));
+    any = hn::Not(hn::And(before, after));
+    const VF entry = hn::Min(cut, piece.s1);
+    const MF cut_entry = hn::And(before, hn::Gt(entry, piece.s0));
+    s = hn::IfThenElse(cut_entry, entry, piece.s0);
+    by_edge = hn::Not(cut_entry);
+    by_inner = no_lanes();
+    starts_inside = hn::Not(before);
+    if constexpr (with_inner) {
+        VF end = piece.s1;
+        end = hn::IfThenElse(hn::And(hn::AndNot(before, after), hn::Lt(cut, end)), cut, end);
+        const MF bounded = hn::Lt(inner.c, hn::Set(df, SPA_FAR));
+        const VF h0 = hn::Sub(plane_at(inner, piece.u0, piece.v0), piece.w0);
+        const VF h1 = hn::Sub(plane_at(inner, piece.u1, piece.v1), piece.w1);
+        const MF h_before = hn::And(bounded, hn::Lt(h0, zero));
+        const MF h_after = hn::And(bounded, hn::Lt(h1, zero));
+        const VF h_cut = hn::Add(piece.s0, hn::Mul(length, hn::Div(h0, hn::Sub(h0, h1))));
+        const VF h_entry = hn::Min(h_cut, piece.s1);
+        by_inner = hn::And(h_before, hn::Gt(h_entry, s));
+        s = hn::IfThenElse(by_inner, h_entry, s);
+        by_edge = hn::AndNot(by_inner, by_edge);
+        end = hn::IfThenElse(hn::And(hn::AndNot(h_before, h_after), hn::Lt(h_cut, end)), h_cut, end);
+        any = hn::And(hn::AndNot(hn::And(h_before, h_after), any), hn::Le(s, end));
+        starts_inside = hn::And(any, hn::Le(s, piece.s0));
+    }
+}
+
+// The rays of `lanes` through the cells: all of them pure.
+template <bool with_inner>
+HWY_INLINE CrossLanes cross_cells(const shader::SpaMap& map, const StretchLanes& stretch,
+                                  const CellLanes& cell) {
+    const VF one = hn::Set(df, 1.0F);
+    const VF zero = hn::Zero(df);
+    const MF flip_x = hn::RebindMask(df, hn::Ne(stretch.flip_x, hn::Zero(du)));
+    const MF flip_y = hn::RebindMask(df, hn::Ne(stretch.flip_y, hn::Zero(du)));
+    const VF x = to_floats(cell.x);
+    const VF y = to_floats(cell.y);
+    const auto place = [&](VF start, VF change, VF s, VF from, MF flip) {
+        const VF p = hn::Sub(hn::Add(start, hn::Mul(s, change)), from);
+        return hn::IfThenElse(flip, hn::Sub(one, p), p);
+    };
+    const VF u0 = place(stretch.x0, stretch.dx, cell.s0, x, flip_x);
+    const VF v0 = place(stretch.y0, stretch.dy, cell.s0, y, flip_y);
+    const VF u1 = place(stretch.x0, stretch.dx, cell.s1, x, flip_x);
+    const VF v1 = place(stretch.y0, stretch.dy, cell.s1, y, flip_y);
+    const VF w0 = hn::Add(stretch.w0, hn::Mul(cell.s0, stretch.dw));
+    const VF w1 = hn::Add(stretch.w0, hn::Mul(cell.s1, stretch.dw));
+    const VF g0 = hn::Sub(hn::Add(u0, v0), one);
+    const VF g1 = hn::Sub(hn::Add(u1, v1), one);
+    const MF two =
+        hn::Or(hn::And(hn::Lt(g0, zero), hn::Gt(g1, zero)), hn::And(hn::Gt(g0, zero), hn::Lt(g1, zero)));
+    const VF f = hn::Div(g0, hn::Sub(g0, g1));
+    const auto middle = [&](VF a, VF b) {
+        return hn::IfThenElse(two, hn::Add(a, hn::Mul(hn::Sub(b, a), f)), b);
+    };
+    const VF sm = middle(cell.s0, cell.s1);
+    const VF um = middle(u0, u1);
+    const VF vm = middle(v0, v1);
+    const VF wm = middle(w0, w1);
+    const MF first_beyond = select_mask(two, hn::Gt(g0, zero), hn::Gt(hn::Add(g0, g1), zero));
+    const PieceLanes first{cell.s0, u0, v0, w0, sm, um, vm, wm};
+    const PieceLanes second{sm, um, vm, wm, cell.s1, u1, v1, w1};
+
+    const CornerPlaces places =
+        corner_places(map, stretch, hn::Xor(cell.x, stretch.flip_x), hn::Xor(cell.y, stretch.flip_y));
+    const auto* const samples = reinterpret_cast<const float*>(map.words.first + map.samples);
+    const std::size_t count = std::size_t(map.width) * map.height;
+
+    CrossLanes result;
+    result.any = no_lanes();
+    result.s = hn::Set(df, 2.0F);
+    result.by_edge = result.inner = result.starts_inside = no_lanes();
+    result.layer = hn::Zero(du);
+    MF first_any = no_lanes();
+    VF first_s = hn::Set(df, 2.0F);
+    VF second_s = hn::Set(df, 2.0F);
+    MF first_edge = no_lanes(), first_inner = no_lanes(), second_any = no_lanes(), second_edge = no_lanes(),
+       second_inner = no_lanes();
+    VU first_layer = hn::Zero(du), second_layer = hn::Zero(du);
+    PlaneLanes first_plane{zero, zero, zero}, second_plane{zero, zero, zero};
+    const std::uint32_t layers = (map.surfaces + 1) / 2;
+    for (std::uint32_t k = 0; k < layers; ++k) {
+        const CornerLanes outer = corners(samples + (with_inner ? 2 * k : k) * count, places);
+        if (k > 0 &&
+            hn::AllTrue(df, hn::Ge(hn::Min(hn::Min(outer.w00, outer.w10), hn::Min(outer.w01, outer.w11)),
+                                   hn::Set(df, SPA_FAR))))
+            break;
+        CornerLanes inner = outer;
+        if constexpr (with_inner) inner = corners(samples + (2 * k + 1) * count, places);
+        VF s;
+        MF any, edge, by_inner, inside;
+        PlaneLanes plane = outer.plane(first_beyond);
+        PlaneLanes inner_plane = inner.plane(first_beyond);
+        enter_prism<with_inner>(first, plane, inner_plane, s, any, edge, by_inner, inside);
+        result.starts_inside = hn::Or(result.starts_inside, inside);
+        MF better = hn::And(any, hn::Lt(s, first_s));
+        first_any = hn::Or(first_any, any);
+        first_s = hn::IfThenElse(better, s, first_s);
+        first_edge = select_mask(better, edge, first_edge);
+        if constexpr (with_inner) {
+            first_inner = select_mask(better, by_inner, first_inner);
+            first_layer = hn::IfThenElse(hn::RebindMask(du, better), hn::Set(du, k), first_layer);
+            plane = select(by_inner, inner_plane, plane);
+        }
+        first_plane = select(better, plane, first_plane);
+
+        const MF second_beyond = hn::Not(first_beyond);
+        plane = outer.plane(second_beyond);
+        inner_plane = inner.plane(second_beyond);
+        enter_prism<with_inner>(second, plane, inner_plane, s, any, edge, by_inner, inside);
+        better = hn::And(any, hn::Lt(s, second_s));
+        second_any = hn::Or(second_any, any);
+        second_s = hn::IfThenElse(better, s, second_s);
+        second_edge = select_mask(better, edge, second_edge);
+        if constexpr (with_inner) {
+            second_inner = select_mask(better, by_inner, second_inner);
+            second_layer = hn::IfThenElse(hn::RebindMask(du, better), hn::Set(du, k), second_layer);
+            plane = select(by_inner, inner_plane, plane);
+        }
+        second_plane = select(better, plane, second_plane);
+    }
+    const MF in_second = hn::AndNot(first_any, hn::And(second_any, two));
+    result.any = hn::Or(first_any, in_second);
+    result.s = hn::IfThenElse(in_second, second_s, first_s);
+    result.by_edge = select_mask(in_second, second_edge, first_edge);
+    result.inner = select_mask(in_second, second_inner, first_inner);
+    result.layer = hn::IfThenElse(hn::RebindMask(du, in_second), second_layer, first_layer);
+    result.beyond =
+        hn::IfThenElse(hn::RebindMask(du, hn::Xor(first_beyond, in_second)), hn::Set(du, 1), hn::Zero(du));
+    result.piece = select(in_second, second, first);
+    result.plane = select(in_second, second_plane, first_plane);
+    return result;
+}
+
+} // namespace spa::trace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

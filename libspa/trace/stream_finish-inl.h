@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// spa_event and spa_finish of the text, for the hits on pure cells of one pass.
+#include "stream_cell-inl.h"
+#include "stream_setup-inl.h"
+
+#if defined(SPA_STREAM_FINISH_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPA_STREAM_FINISH_INL
+#undef SPA_STREAM_FINISH_INL
+#else
+#define SPA_STREAM_FINISH_INL
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace spa::trace::HWY_NAMESPACE {
+
+// The finished records of up to one vector of jobs.
+struct HitBlock {
+    HWY_ALIGN float t[hn::MaxLanes(df)];
+    HWY_ALIGN float normal_x[hn::MaxLanes(df)], normal_y[hn::MaxLanes(df)], normal_z[hn::MaxLanes(df)];
+    HWY_ALIGN float map_x[hn::MaxLanes(df)], map_y[hn::MaxLanes(df)];
+    HWY_ALIGN std::uint32_t layer[hn::MaxLanes(df)], inner[hn::MaxLanes(df)];
+    HWY_ALIGN std::uint32_t by_text[hn::MaxLanes(df)]; // not 0: an edge, which the text has to look at
+};
+
+// spa_time
+HWY_INLINE VF time_of(const StretchLanes& stretch, VF ta, VF tb, VF sigma) {
+    const VF w1 = hn::Add(stretch.w0, stretch.dw);
+    const VF start = hn::Mul(ta, stretch.w0);
+    const VF t = hn::Div(hn::Add(start, hn::Mul(sigma, hn::Sub(hn::Mul(tb, w1), start))),
+                         hn::Add(stretch.w0, hn::Mul(sigma, stretch.dw)));
+    return hn::Min(hn::Max(t, ta), tb);
+}
+
+// The jobs from `first` on, a vector of them; those that hit no pure cell give nonsense.
+template <bool with_inner>
+HWY_INLINE void finish(const shader::SpaMap& map, const ChordBlock& chords, const StretchBlock& jobs,
+                       const ResultBlock& results, const Ray* rays, std::size_t first, HitBlock& hits) {
+    const MU wanted =
+        hn::Eq(hn::LoadU(du, results.found + first), hn::Set(du, std::uint32_t(Found::surface)));
+    const VU turn = hn::LoadU(du, jobs.turn + first);
+    const auto mask = [&](std::uint32_t bit) {
+        return hn::RebindMask(df, hn::Ne(hn::And(turn, hn::Set(du, bit)), hn::Zero(du)));
+    };
+    const std::uint32_t side = 1U << map.levels;
+    const MF flip_x = mask(turn_flip_x);
+    const MF flip_y = mask(turn_flip_y);
+    const auto flip = [&](MF m) { return hn::IfThenElseZero(hn::RebindMask(du, m), hn::Set(du, side - 1)); };
+    const StretchLanes stretch{hn::LoadU(df, jobs.x0 + first),
+                               hn::LoadU(df, jobs.y0 + first),
+                               hn::LoadU(df, jobs.w0 + first),
+                               hn::LoadU(df, jobs.dx + first),
+                               hn::LoadU(df, jobs.dy + first),
+                               hn::LoadU(df, jobs.dw + first),
+                               hn::And(turn, hn::Set(du, turn_quadrant)),
+                               flip(flip_x),
+                               flip(flip_y)};
+    const VU limit = hn::Set(du, side - 1);
+    const CellLanes cell{hn::Min(hn::IfThenElseZero(wanted, hn::LoadU(du, results.x + first)), limit),
+                         hn::Min(hn::IfThenElseZero(wanted, hn::LoadU(du, results.y + first)), limit),
+                         hn::LoadU(df, results.s0 + first), hn::LoadU(df, results.s1 + first)};
+    const CrossLanes cross = cross_cells<with_inner>(map, stretch, cell);
+    const PieceLanes& piece = cross.piece;
+
+    // An edge of the triangle where the plane passes too is no wall.
+    const VF zero = hn::Zero(df);
+    const VF f = hn::IfThenElseZero(hn::Gt(piece.s1, piece.s0),
+                                    hn::Div(hn::Sub(cross.s, piece.s0), hn::Sub(piece.s1, piece.s0)));
+    const auto at = [&](VF a, VF b) { return hn::Add(a, hn::Mul(f, hn::Sub(b, a))); };
+    const VF w = at(piece.w0, piece.w1);
+    const VF off = hn::Abs(hn::Sub(w, plane_at(cross.plane, at(piece.u0, piece.u1), at(piece.v0, piece.v1))));
+    const MF wall = hn::And(cross.by_edge, hn::Gt(off, hn::Mul(hn::Set(df, SPA_STEP), w)));
+    hn::Store(hn::VecFromMask(du, hn::RebindMask(du, wall)), du, hits.by_text);
+
+    // Of edges only those of the outer plane stay here: cross.plane is the outer one unless cross.inner.
+    const VF ta = hn::LoadU(df, jobs.ta + first);
+    const VF tb = hn::LoadU(df, jobs.tb + first);
+    const VI chord = hn::BitCast(di, hn::IfThenElseZero(wanted, hn::LoadU(du, jobs.chord + first)));
+    const auto of_chord = [&](const Floats& from) { return hn::GatherIndex(df, from + 0, chord); };
+    const VectorLanes foot{of_chord(chords.foot_x), of_chord(chords.foot_y), of_chord(chords.foot_z)};
+    const VectorLanes direction{of_chord(chords.direction_x), of_chord(chords.direction_y),
+                                of_chord(chords.direction_z)};
+    const MF left = mask(1);
+    const MF below = mask(2);
+    const MF lower = mask(turn_lower);
+    const VU real_x = hn::Xor(cell.x, stretch.flip_x);
+    const VU real_y = hn::Xor(cell.y, stretch.flip_y);
+    const VF x = to_floats(real_x);
+    const VF y = to_floats(real_y);
+    const auto cells = float((map.width - 1) / 2);
+    const PlaneLanes& plane = cross.plane;
+    const auto signed_by = [](MF negative, VF v) { return hn::IfThenElse(negative, hn::Neg(v), v); };
+    const auto plane_minus_one = [&](VF t) {
+        VF a = signed_by(left, hn::Add(foot.x, hn::Mul(direction.x, t)));
+        VF b = signed_by(below, hn::Add(foot.y, hn::Mul(direction.y, t)));
+        const VF c = signed_by(lower, hn::Add(foot.z, hn::Mul(direction.z, t)));
+        const VF l = hn::Add(hn::Add(a, b), c);
+        a = hn::IfThenElse(lower, hn::Add(a, c), a);
+        b = hn::IfThenElse(lower, hn::Add(b, c), b);
+        const VF many = hn::Set(df, cells);
+        const VF along_u = hn::Mul(plane.u, hn::Sub(hn::Mul(many, a), hn::Mul(x, l)));
+        const VF along_v = hn::Mul(plane.v, hn::Sub(hn::Mul(many, b), hn::Mul(y, l)));
+        return hn::Sub(hn::Add(hn::Add(hn::Mul(plane.c, l), along_u), along_v), hn::Set(df, 1.0F));
+    };
+    const VF t_start = time_of(stretch, ta, tb, piece.s0);
+    const VF t_end = time_of(stretch, ta, tb, piece.s1);
+    const VF ga = plane_minus_one(t_start);
+    const VF gb = plane_minus_one(t_end);
+    const VF exact = hn::Min(
+        hn::Max(hn::Add(t_start, hn::Mul(hn::Sub(t_end, t_start), hn::Div(ga, hn::Sub(ga, gb)))), t_start),
+        t_end);
+    const MF changes = hn::Xor(hn::Lt(ga, zero), hn::Lt(gb, zero));
+    const VF t = hn::IfThenElse(changes, exact, time_of(stretch, ta, tb, cross.s));
+    const VI ray =
+        hn::ShiftLeft<3>(hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(chords.ray + 0), chord));
+    const auto* const words = reinterpret_cast<const float*>(rays);
+    const VF t_min = hn::GatherIndex(df, words + 3, ray);
+    const VF t_max = hn::GatherIndex(df, words + 7, ray);
+    hn::Store(hn::Min(hn::Max(hn::Add(t, of_chord(chords.foot_t)), t_min), t_max), df, hits.t);
+
+    // spa_gradient
+    const VF gx = hn::Mul(plane.u, hn::Set(df, cells));
+    const VF gy = hn::Mul(plane.v, hn::Set(df, cells));
+    const VF gl = hn::Sub(hn::Sub(plane.c, hn::Mul(plane.u, x)), hn::Mul(plane.v, y));
+    const MF upper = hn::RebindMask(
+        df, hn::Lt(hn::Add(hn::Add(real_x, real_y), cross.beyond), hn::Set(du, (map.width - 1) / 2)));
+    const VF gradient_x = signed_by(left, hn::Add(gl, gx));
+    const VF gradient_y = signed_by(below, hn::Add(gl, gy));
+    const VF gradient_z = hn::IfThenElse(upper, gl, hn::Neg(hn::Add(hn::Add(gl, gx), gy)));
+    const VectorLanes normal{signed_by(cross.inner, gradient_x), signed_by(cross.inner, gradient_y),
+                             signed_by(cross.inner, gradient_z)};
+    const VF length = hn::Sqrt(dot(normal, normal));
+    const VF scale = hn::Div(hn::Set(df, 1.0F), length);
+    const auto unit = [&](VF v) { return hn::IfThenElseZero(hn::Gt(length, zero), hn::Mul(v, scale)); };
+    hn::Store(unit(normal.x), df, hits.normal_x);
+    hn::Store(unit(normal.y), df, hits.normal_y);
+    hn::Store(unit(normal.z), df, hits.normal_z);
+
+    const auto place = [&](VF start, VF change, MF turned) {
+        const VF p = hn::Add(start, hn::Mul(cross.s, change));
+        return hn::IfThenElse(turned, hn::Sub(hn::Set(df, float(side)), p), p);
+    };
+    const VF whole = hn::Set(df, float(map.width - 1));
+    const VF half = hn::Set(df, 0.5F);
+    const VF px = signed_by(left, place(stretch.x0, stretch.dx, flip_x));
+    const VF py = signed_by(below, place(stretch.y0, stretch.dy, flip_y));
+    hn::Store(hn::Add(half, hn::Div(px, whole)), df, hits.map_x);
+    hn::Store(hn::Sub(half, hn::Div(py, whole)), df, hits.map_y);
+    hn::Store(cross.layer, du, hits.layer);
+    hn::Store(hn::IfThenElseZero(hn::RebindMask(du, cross.inner), hn::Set(du, 1)), du, hits.inner);
+}
+
+} // namespace spa::trace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

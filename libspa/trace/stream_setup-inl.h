@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+// spa_chord and spa_stretch of the text, many rays at once.
+#include "stream_vectors-inl.h"
+
+#include "ray.h"
+
+#if defined(SPA_STREAM_SETUP_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPA_STREAM_SETUP_INL
+#undef SPA_STREAM_SETUP_INL
+#else
+#define SPA_STREAM_SETUP_INL
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace spa::trace::HWY_NAMESPACE {
+
+struct VectorLanes {
+    VF x, y, z;
+};
+
+HWY_INLINE VF dot(const VectorLanes& a, const VectorLanes& b) {
+    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+// a + b s
+HWY_INLINE VectorLanes along(const VectorLanes& a, const VectorLanes& b, VF s) {
+    return {hn::Add(a.x, hn::Mul(b.x, s)), hn::Add(a.y, hn::Mul(b.y, s)), hn::Add(a.z, hn::Mul(b.z, s))};
+}
+
+template <class V, class M, class T>
+HWY_INLINE void append(V values, M keep, T* to) {
+    hn::StoreU(hn::Compress(values, keep), hn::DFromV<V>(), to);
+}
+
+// When the ray crosses a coordinate plane (spa_crossing).
+HWY_INLINE VF crossing(VF position, VF direction, VF t0, VF t1) {
+    const VF t = hn::Min(hn::Max(hn::Div(hn::Neg(position), direction), t0), t1);
+    return hn::IfThenElse(hn::Eq(direction, hn::Zero(df)), t1, t);
+}
+
+// The chords of the rays that meet the map's sphere.
+inline void find_chords(const shader::SpaMap& map, const Ray* rays, std::size_t count, ChordBlock& chords) {
+    static_assert(sizeof(Ray) == 8 * sizeof(float));
+    const std::size_t lane_count = hn::Lanes(df);
+    const auto* const words = reinterpret_cast<const float*>(rays);
+    const VF radius = hn::Set(df, map.radius);
+    const VF zero = hn::Zero(df);
+    std::size_t n = 0;
+    for (std::size_t first = 0; first < count; first += lane_count) {
+        // Lanes behind the last ray read it again.
+        const VU ray = hn::Min(hn::Iota(du, std::uint32_t(first)), hn::Set(du, std::uint32_t(count - 1)));
+        const VI place = hn::BitCast(di, hn::ShiftLeft<3>(ray));
+        const auto member = [&](int index) { return hn::GatherIndex(df, words + index, place); };
+        const VectorLanes origin{member(0), member(1), member(2)};
+        const VF ray_min = member(3);
+        const VectorLanes direction{member(4), member(5), member(6)};
+        const VF ray_max = member(7);
+
+        const VF dd = dot(direction, direction);
+        VF foot_t = hn::Div(hn::Neg(dot(origin, direction)), dd);
+        VectorLanes foot = along(origin, direction, foot_t);
+        const VF rest = hn::Div(hn::Neg(dot(foot, direction)), dd);
+        foot = along(foot, direction, rest);
+        foot_t = hn::Add(foot_t, rest);
+        const VF inside = hn::Sub(hn::Mul(radius, radius), dot(foot, foot));
+        const VF half_chord = hn::Sqrt(hn::Div(inside, dd));
+        const VF t_min = hn::Sub(ray_min, foot_t);
+        const VF negative = hn::Neg(half_chord);
+        const MF unknown = hn::Gt(t_min, negative);
+        const VF t0 = hn::Max(negative, t_min);
+        const VF t1 = hn::Min(half_chord, hn::Sub(ray_max, foot_t));
+        const MF real = hn::RebindMask(df, hn::FirstN(du, count - first));
+        const MF meets = hn::And(real, hn::And(hn::Ge(inside, zero), hn::Lt(t0, t1)));
+        const std::size_t more = hn::CountTrue(df, meets);
+        if (more == 0) continue;
+
+        const VF cx = crossing(foot.x, direction.x, t0, t1);
+        const VF cy = crossing(foot.y, direction.y, t0, t1);
+        const VF cz = crossing(foot.z, direction.z, t0, t1);
+        const VF low = hn::Min(cx, cy);
+        const VF high = hn::Max(cx, cy);
+        append(ray, hn::RebindMask(du, meets), chords.ray + n);
+        append(foot.x, meets, chords.foot_x + n);
+        append(foot.y, meets, chords.foot_y + n);
+        append(foot.z, meets, chords.foot_z + n);
+        append(foot_t, meets, chords.foot_t + n);
+        append(direction.x, meets, chords.direction_x + n);
+        append(direction.y, meets, chords.direction_y + n);
+        append(direction.z, meets, chords.direction_z + n);
+        append(cx, meets, chords.cross_x + n);
+        append(cy, meets, chords.cross_y + n);
+        append(cz, meets, chords.cross_z + n);
+        append(t0, meets, chords.time[0] + n);
+        append(hn::Min(low, cz), meets, chords.time[1] + n);
+        append(hn::Max(low, hn::Min(high, cz)), meets, chords.time[2] + n);
+        append(hn::Max(high, cz), meets, chords.time[3] + n);
+        append(t1, meets, chords.time[4] + n);
+        append(hn::VecFromMask(du, hn::RebindMask(du, unknown)), hn::RebindMask(du, meets),
+               chords.unknown + n);
+        hn::StoreU(hn::Zero(du), du, chords.done + n);
+        n += more;
+    }
+    chords.count = n;
+}
+
+// Whether the ray is on the negative side of a coordinate plane (spa_sign).
+HWY_INLINE MF is_negative(VF position, VF direction, VF crossing, VF at) {
+    const VF zero = hn::Zero(df);
+    const MF before = hn::Lt(at, crossing);
+    const MF rises = hn::Gt(direction, zero);
+    const MF moving = hn::Not(hn::Xor(before, rises));
+    return select_mask(hn::Eq(direction, zero), hn::Lt(position, zero), moving);
+}
+
+// The stretches of one pass, between two of a chord's five times, of all rays that are not done.
+inline void find_stretches(const shader::SpaMap& map, std::size_t pass, ChordBlock& chords,
+                           StretchBlock& jobs) {
+    const std::size_t lane_count = hn::Lanes(df);
+    const VF half_cells = hn::Set(df, float(map.width - 1) * 0.5F);
+    const VF side = hn::Set(df, float(1U << map.levels));
+    const VF core = hn::Set(df, 1.0F / map.w_core);
+    const VF zero = hn::Zero(df);
+    const VF one = hn::Set(df, 1.0F);
+    std::size_t n = 0;
+    for (std::size_t first = 0; first < chords.count; first += lane_count) {
+        const VF ta = hn::LoadU(df, chords.time[pass] + first);
+        const VF tb = hn::LoadU(df, chords.time[pass + 1] + first);
+        const MU open = hn::AndNot(hn::MaskFromVec(hn::LoadU(du, chords.done + first)),
+                                   hn::FirstN(du, chords.count - first));
+        const MF wanted = hn::And(hn::RebindMask(df, open), hn::Lt(ta, tb));
+        if (hn::AllFalse(df, wanted)) continue;
+        const VectorLanes foot{hn::LoadU(df, chords.foot_x + first), hn::LoadU(df, chords.foot_y + first),
+                               hn::LoadU(df, chords.foot_z + first)};
+        const VectorLanes direction{hn::LoadU(df, chords.direction_x + first),
+                                    hn::LoadU(df, chords.direction_y + first),
+                                    hn::LoadU(df, chords.direction_z + first)};
+        const VF middle = hn::Mul(hn::Add(ta, tb), hn::Set(df, 0.5F));
+        const MF left = is_negative(foot.x, direction.x, hn::LoadU(df, chords.cross_x + first), middle);
+        const MF below = is_negative(foot.y, direction.y, hn::LoadU(df, chords.cross_y + first), middle);
+        const MF lower = is_negative(foot.z, direction.z, hn::LoadU(df, chords.cross_z + first), middle);
+        const auto place = [&](VF position, VF change, VF t, MF negative) {
+            const VF p = hn::Add(position, hn::Mul(change, t));
+            return hn::Max(hn::IfThenElse(negative, hn::Neg(p), p), zero);
+        };
+        VectorLanes a{place(foot.x, direction.x, ta, left), place(foot.y, direction.y, ta, below),
+                      place(foot.z, direction.z, ta, lower)};
+        VectorLanes b{place(foot.x, direction.x, tb, left), place(foot.y, direction.y, tb, below),
+                      place(foot.z, direction.z, tb, lower)};
+        VF la = hn::Add(hn::Add(a.x, a.y), a.z);
+        VF lb = hn::Add(hn::Add(b.x, b.y), b.z);
+        const MF core_a = hn::Lt(la, core);
+        const MF core_b = hn::Lt(lb, core);
+        VF start = ta;
+        VF end = tb;
+        MF outside = wanted;
+        if (!hn::AllFalse(df, hn::Or(core_a, core_b))) {
+            const VF f = hn::Div(hn::Sub(core, la), hn::Sub(lb, la));
+            const VF fa = hn::IfThenElse(core_a, f, zero);
+            const VF fb = hn::IfThenElse(core_b, f, one);
+            outside = hn::And(outside, hn::AndNot(hn::And(core_a, core_b), hn::Lt(fa, fb)));
+            const VectorLanes step{hn::Sub(b.x, a.x), hn::Sub(b.y, a.y), hn::Sub(b.z, a.z)};
+            const VectorLanes cut_a = along(a, step, fa);
+            const VectorLanes cut_b = along(a, step, fb);
+            b = {hn::IfThenElse(core_b, cut_b.x, b.x), hn::IfThenElse(core_b, cut_b.y, b.y),
+                 hn::IfThenElse(core_b, cut_b.z, b.z)};
+            a = {hn::IfThenElse(core_a, cut_a.x, a.x), hn::IfThenElse(core_a, cut_a.y, a.y),
+                 hn::IfThenElse(core_a, cut_a.z, a.z)};
+            la = hn::IfThenElse(core_a, core, la);
+            lb = hn::IfThenElse(core_b, core, lb);
+            const VF length = hn::Sub(tb, ta);
+            start = hn::Add(ta, hn::Mul(length, fa));
+            end = hn::IfThenElse(hn::Lt(fb, one), hn::Add(ta, hn::Mul(length, fb)), tb);
+        }
+        const std::size_t more = hn::CountTrue(df, outside);
+        if (more == 0) continue;
+        const VF wa = hn::Div(one, la);
+        const VF wb = hn::Div(one, lb);
+        const auto coordinate = [&](VF p, VF z, VF w) {
+            return hn::Mul(hn::Min(hn::Mul(hn::IfThenElse(lower, hn::Add(p, z), p), w), one), half_cells);
+        };
+        const VF xa = coordinate(a.x, a.z, wa);
+        const VF ya = coordinate(a.y, a.z, wa);
+        const VF xb = coordinate(b.x, b.z, wb);
+        const VF yb = coordinate(b.y, b.z, wb);
+        const MF turn_x = hn::Lt(xb, xa);
+        const MF turn_y = hn::Lt(yb, ya);
+        const auto turned = [&](MF turn, VF p) { return hn::IfThenElse(turn, hn::Sub(side, p), p); };
+        const VF x0 = turned(turn_x, xa);
+        const VF y0 = turned(turn_y, ya);
+        const VU unknown_bits = hn::LoadU(du, chords.unknown + first);
+        const auto bit = [&](MF mask, std::uint32_t value) {
+            return hn::IfThenElseZero(hn::RebindMask(du, mask), hn::Set(du, value));
+        };
+        const VU turn = hn::Or(hn::Or(hn::Or(bit(left, 1), bit(below, 2)), bit(lower, turn_lower)),
+                               hn::Or(hn::Or(bit(turn_x, turn_flip_x), bit(turn_y, turn_flip_y)),
+                                      hn::And(unknown_bits, hn::Set(du, turn_unknown))));
+        const MU outside_u = hn::RebindMask(du, outside);
+        append(hn::Iota(du, std::uint32_t(first)), outside_u, jobs.chord + n);
+        append(x0, outside, jobs.x0 + n);
+        append(y0, outside, jobs.y0 + n);
+        append(wa, outside, jobs.w0 + n);
+        append(hn::Sub(turned(turn_x, xb), x0), outside, jobs.dx + n);
+        append(hn::Sub(turned(turn_y, yb), y0), outside, jobs.dy + n);
+        append(hn::Sub(wb, wa), outside, jobs.dw + n);
+        append(start, outside, jobs.ta + n);
+        append(end, outside, jobs.tb + n);
+        append(turn, outside_u, jobs.turn + n);
+        // Whether it starts in the solid is found out on a ray's first stretch.
+        hn::StoreU(hn::IfThenZeroElse(outside_u, unknown_bits), du, chords.unknown + first);
+        n += more;
+    }
+    jobs.count = n;
+}
+
+} // namespace spa::trace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
