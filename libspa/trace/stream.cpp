@@ -123,7 +123,9 @@ void trace_blocks(const TraceMap& map, const Ray* rays, std::size_t count, std::
         for (std::size_t pass = 0; pass < 4; ++pass) {
             find_stretches(map.map(), pass, block.chords, block.stretches);
             if (block.stretches.count == 0) continue;
-            std::fill_n(block.results.found + 0, block.stretches.count, std::uint32_t(Found::nothing));
+            // To the end of the last vector: what lies behind the last job must not look like a hit.
+            std::fill_n(block.results.found + 0, block.stretches.count + hn::Lanes(du),
+                        std::uint32_t(Found::nothing));
             walk<with_inner>(map.map(), block.stretches, block.results);
             finish_pass<with_inner>(map, block, rays + first, flags, sink);
         }
