@@ -25,6 +25,7 @@ constexpr std::array entries = {
     Entry{{"cliff", "A body with plateaus whose edges are cliffs one texel wide.", 3}, make_cliff},
     Entry{{"concave", "A bowl around a ring wall around a ball: up to five crossings a direction.", 3},
           make_concave},
+    Entry{{"smooth", "A star-shaped ball with gentle bumps, smooth everywhere.", 3}, make_smooth},
 };
 
 const Entry* find_entry(std::string_view name) {

@@ -37,6 +37,8 @@ struct Sample {
 //   spiky    a ball with 42 needles, many of them thinner than a texel
 //   cliff    a star-shaped body whose radius jumps by 40 % over 0.01 rad
 //   concave  a bowl around a ring wall around a ball on a stem: up to five crossings a direction
+//   smooth   a star-shaped ball with gentle bumps of 15 % of its radius and exact normals; level 0..6: 326,
+//            1298, 5186, 20738, 82946, 331778, 1327106 vertices, none repeated
 // Each level has about four times the triangles of the one below (cliff: from level 3 on).
 std::span<const Sample> list();
 

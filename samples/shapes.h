@@ -17,6 +17,7 @@ Model make_cube(int level);
 Model make_spiky(int level);
 Model make_cliff(int level);
 Model make_concave(int level);
+Model make_smooth(int level);
 
 // Opaque linear colour of an sRGB triple.
 Vec4f srgb(std::uint8_t red, std::uint8_t green, std::uint8_t blue);

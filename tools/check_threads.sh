@@ -27,7 +27,7 @@ compare() {
     compared=$((compared + 1))
 }
 
-for name in boot sphere torus cube spiky cliff concave; do
+for name in boot sphere torus cube spiky cliff concave smooth; do
     case $name in
     boot) "$spa" sample boot --level 2 -o "$folder/boot.glb" >/dev/null ;;
     *) "$spa" sample "$name" -o "$folder/$name.glb" >/dev/null ;;

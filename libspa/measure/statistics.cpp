@@ -19,9 +19,14 @@ Distribution distribution(std::vector<double> values) {
     }
     result.mean = sum / double(values.size());
     result.rms = std::sqrt(squares / double(values.size()));
-    const auto rank = std::size_t(std::ceil(0.95 * double(values.size()))) - 1;
-    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(rank), values.end());
-    result.p95 = values[rank];
+    const auto at = [&](double share) {
+        const auto rank = std::size_t(std::ceil(share * double(values.size()))) - 1;
+        std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(rank), values.end());
+        return values[rank];
+    };
+    result.median = at(0.5);
+    result.p95 = at(0.95);
+    result.p99 = at(0.99);
     return result;
 }
 

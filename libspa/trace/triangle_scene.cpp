@@ -1,45 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "triangle_scene.h"
 
-#include "../core/error.h"
-#include "../mesh/closest_point.h"
+#include "embree_handles.h"
 
-#include <embree3/rtcore.h>
+#include "../mesh/closest_point.h"
 
 #include <cmath>
 #include <cstring>
-#include <string>
 
 namespace spa::trace {
 namespace {
-
-struct ReleaseDevice {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-struct ReleaseGeometry {
-    void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
-template <class Handle, class Release>
-using Owner = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
-
-const char* text(RTCError error) {
-    switch (error) {
-    case RTC_ERROR_OUT_OF_MEMORY: return "out of memory";
-    case RTC_ERROR_UNSUPPORTED_CPU: return "this processor lacks SSE2";
-    case RTC_ERROR_INVALID_ARGUMENT: return "invalid argument";
-    case RTC_ERROR_INVALID_OPERATION: return "invalid operation";
-    default: return "unknown error";
-    }
-}
-
-void check(RTCDevice device) {
-    const RTCError error = rtcGetDeviceError(device);
-    if (error != RTC_ERROR_NONE)
-        throw Error(ExitCode::internal, std::string("Embree failed: ") + text(error));
-}
 
 RTCRayHit make_ray(Vec3f origin, Vec3f direction, float max_t) {
     RTCRayHit ray{};
@@ -103,8 +73,8 @@ bool visit(RTCPointQueryFunctionArguments* arguments) {
 struct TriangleScene::State {
     std::span<const Vec3f> positions;
     std::span<const Triangle> triangles;
-    Owner<RTCDevice, ReleaseDevice> device;
-    Owner<RTCScene, ReleaseScene> scene;
+    DeviceOwner device;
+    SceneOwner scene;
 };
 
 TriangleScene::TriangleScene(std::span<const Vec3f> positions, std::span<const Triangle> triangles)
@@ -117,8 +87,7 @@ TriangleScene::TriangleScene(std::span<const Vec3f> positions, std::span<const T
     s.scene.reset(rtcNewScene(s.device.get()));
     // Without the robust flag rays leak through edges and vertices.
     rtcSetSceneFlags(s.scene.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-    const Owner<RTCGeometry, ReleaseGeometry> geometry(
-        rtcNewGeometry(s.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+    const GeometryOwner geometry(rtcNewGeometry(s.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
     // Embree's own buffers: it reads 16 bytes a vertex, four behind the end of a vector.
     void* const vertices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0,
                                                    RTC_FORMAT_FLOAT3, sizeof(Vec3f), positions.size());

@@ -32,6 +32,8 @@ TEST(Distribution, OfOneToHundred) {
     EXPECT_DOUBLE_EQ(d.mean, 50.5);
     EXPECT_DOUBLE_EQ(d.rms, std::sqrt(338350.0 / 100)); // n (n + 1) (2 n + 1) / 6
     EXPECT_EQ(d.p95, 95);
+    EXPECT_EQ(d.median, 50);
+    EXPECT_EQ(d.p99, 99);
 }
 
 // 95 % of 21 values are 19.95 of them, so the 20th smallest is the first that so many do not exceed.

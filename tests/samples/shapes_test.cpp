@@ -34,8 +34,8 @@ TEST(SampleList, NamesEverySampleOnce) {
         EXPECT_LE(sample.default_level, spa::samples::max_level);
         EXPECT_EQ(spa::samples::find_sample(sample.name)->name, sample.name);
     }
-    EXPECT_EQ(names,
-              (std::set<std::string_view>{"boot", "cliff", "concave", "cube", "sphere", "spiky", "torus"}));
+    EXPECT_EQ(names, (std::set<std::string_view>{"boot", "cliff", "concave", "cube", "smooth", "sphere",
+                                                 "spiky", "torus"}));
     EXPECT_EQ(spa::samples::find_sample("shoe"), nullptr);
 }
 
@@ -194,6 +194,27 @@ TEST(Cliff, IsStarShapedAndFallsWithinATexel) {
         }
     }
     EXPECT_NEAR(steepest, 0.4, 1e-6);
+}
+
+TEST(Smooth, IsStarShapedAndItsNormalsAreThoseOfItsSurface) {
+    const Model model = make_sample("smooth", 4);
+    EXPECT_EQ(model.positions.size(), 4U * 144 * 144 + 2);
+    double least = 2, most = 0;
+    for (const Triangle& triangle : model.triangles) {
+        Vec3d corner[3];
+        for (std::size_t i = 0; i < 3; ++i) corner[i] = to_double(model.positions[triangle.vertex.at(i)]);
+        EXPECT_GT(dot(corner[0], cross(corner[1], corner[2])), 0) << "seen from the centre";
+        const Vec3d face = cross(corner[1] - corner[0], corner[2] - corner[0]);
+        for (std::size_t i = 0; i < 3; ++i) {
+            least = std::min(least, length(corner[i]));
+            most = std::max(most, length(corner[i]));
+            const Vec3d normal = to_double(model.normals[triangle.vertex.at(i)]);
+            EXPECT_GT(dot(face, normal), 0.999 * length(face));
+        }
+    }
+    EXPECT_GT(least, 0.85);
+    EXPECT_LT(most, 1.15);
+    EXPECT_GT(most - least, 0.15);
 }
 
 TEST(Concave, HasUpToFiveCrossingsAndAnOpening) {
