@@ -47,8 +47,9 @@ std::vector<trace::Ray> primary_rays(std::uint32_t count) {
     const auto side = std::uint32_t(std::ceil(std::sqrt(double(count))));
     std::vector<trace::Ray> rays;
     for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t row = i / side;
         const double x = (2 * (i % side + 0.5) / side - 1) * half;
-        const double y = (1 - 2 * (i / side + 0.5) / side) * half;
+        const double y = (1 - 2 * (row + 0.5) / side) * half;
         rays.push_back(ray_from(eye, forward + right * x + up * y));
     }
     return rays;

@@ -11,7 +11,7 @@ namespace spa::measure {
 struct Distribution {
     std::uint64_t count = 0;
     double max = 0, mean = 0, rms = 0;
-    double p95 = 0; // the smallest value that at least 95 % of all values do not exceed
+    double p95 = 0;             // the smallest value that at least 95 % of all values do not exceed
     double median = 0, p99 = 0; // likewise
 };
 

@@ -128,13 +128,13 @@ const std::vector<Module>& modules() {
         {.folder = "libspa/trace/",
          .targets = {"trace"},
          .uses = {"libspa/core/", "libspa/mesh/", "shaders/"},
-         .includes = {"embree3/", "hwy/"},
+         .includes = {"embree3/", "hwy/", "pmmintrin.h"},
          .links = {"embree", "hwy"}},
         {.folder = "libspa/measure/",
          .targets = {"measure"},
          .uses = {"libspa/core/", "libspa/mesh/", "libspa/bake/", "libspa/trace/"},
-         .includes = {"malloc.h", "sched.h", "tbb/"}, // the first two for benchmarks
-         .links = {"TBB::"}},
+         .includes = {"malloc.h", "meshoptimizer.h", "sched.h", "tbb/"}, // all but the last for benchmarks
+         .links = {"TBB::", "meshoptimizer"}},
         {.folder = "formats/container/",
          .targets = {"container"},
          .uses = {"libspa/core/"},

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The arguments of `spa bench`, as given: what a word means depends on what is measured.
+#pragma once
+
+#include "arguments.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace spa::tools {
+
+struct BenchArguments {
+    std::optional<std::string> levels, models, sizes, layers, rays, threads, runs, only, sets;
+    std::filesystem::path csv, plots; // empty: none
+    bool quick = false;
+    ReportFormat format = ReportFormat::text;
+    bool quiet = false;
+};
+
+constexpr unsigned max_runs = 1000;
+constexpr unsigned max_threads = 1024;
+constexpr std::uint32_t max_side = 16384;
+
+// At commas, or whatever the separator is; "" is one empty part.
+std::vector<std::string> split(const std::string& text, char separator);
+// Numbers divided by commas. Throws Error{usage} whose message starts with `option`.
+std::vector<std::uint32_t> parse_numbers(const std::string& option, const std::string& text,
+                                         std::uint32_t lowest, std::uint32_t highest);
+// Throws Error{usage} if an option was given that `what` does not know.
+void refuse(const std::string& what, const char* option, bool given);
+
+// `spa bench bake` and `spa bench trace`.
+void bench_bake(const BenchArguments& arguments);
+void bench_trace(const BenchArguments& arguments);
+
+} // namespace spa::tools

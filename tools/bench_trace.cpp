@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench_arguments.h"
+#include "bench_trace_report.h"
+#include "interrupt.h"
+#include "map_file.h"
+#include "output.h"
+#include "progress.h"
+
+#include "../formats/container/writer.h"
+#include "../formats/import/import.h"
+#include "../libspa/trace/trace.h"
+#include "../samples/samples.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace spa::tools {
+
+namespace {
+
+constexpr std::uint32_t max_rays = 100000000;
+constexpr std::uint32_t max_layers = 8;
+
+struct Arguments {
+    std::vector<std::string> models{"boot:6", "smooth:6", "torus", "spiky", "cube"};
+    measure::TraceBenchOptions bench;
+};
+
+// Values of an enumeration by their names.
+template <class T>
+std::vector<T> parse_names(const std::string& option, const std::string& text, std::span<const T> values) {
+    std::vector<T> chosen;
+    for (const std::string& given : split(text, ',')) {
+        const auto found = std::find_if(values.begin(), values.end(),
+                                        [&](T value) { return given == measure::name(value); });
+        if (found == values.end()) {
+            std::string names;
+            for (const T value : values)
+                names += (names.empty() ? "" : ", ") + std::string(measure::name(value));
+            throw Error(ExitCode::usage, option + ": '" + given + "' is not one of " + names);
+        }
+        chosen.push_back(*found);
+    }
+    return chosen;
+}
+
+// What takes a moment and still has one of everything.
+void make_quick(Arguments& arguments) {
+    arguments.models = {"boot:2", "smooth:2"};
+    measure::TraceBenchOptions& bench = arguments.bench;
+    bench.cells = {32, 128};
+    bench.tests = {1, 10};
+    bench.lod_errors = {0.03, 0.003, 0.0003};
+    bench.rays = 2000;
+    bench.runs = 1;
+}
+
+Arguments complete(const BenchArguments& given) {
+    refuse("trace", "--levels", given.levels.has_value());
+    Arguments arguments;
+    measure::TraceBenchOptions& bench = arguments.bench;
+    if (given.quick) make_quick(arguments);
+    if (given.models) arguments.models = split(*given.models, ',');
+    if (given.sizes) {
+        bench.cells = parse_numbers("--sizes", *given.sizes, 2, max_side);
+        for (const std::uint32_t cells : bench.cells)
+            if (cells % 2 != 0)
+                throw Error(ExitCode::usage, "--sizes: '" + std::to_string(cells) +
+                                                 "' is odd; the cells a side of an octahedral map are even");
+    }
+    if (given.layers) bench.layers = parse_numbers("--layers", *given.layers, 1, max_layers);
+    if (given.rays) bench.rays = parse_number("--rays", *given.rays, 1, max_rays);
+    if (given.runs) bench.runs = parse_number("--runs", *given.runs, 1, max_runs);
+    if (given.threads) bench.threads = parse_numbers("--threads", *given.threads, 1, max_threads);
+    if (given.sets) bench.sets = parse_names("--sets", *given.sets, measure::ray_sets());
+    if (given.only) {
+        const std::vector<measure::Family> all = bench.families;
+        bench.families = parse_names("--only", *given.only, std::span<const measure::Family>(all));
+    }
+    return arguments;
+}
+
+// "NAME:LEVEL" or "NAME" of a sample, or a file. A file of a sample's name wants "./".
+Model load(const std::string& given) {
+    const std::size_t colon = given.find(':');
+    const std::string name = given.substr(0, colon);
+    const samples::Sample* const sample = samples::find_sample(name);
+    if (sample == nullptr) return import::read_model(given).model;
+    const int level = colon == std::string::npos
+                          ? sample->default_level
+                          : int(parse_number("--models", given.substr(colon + 1), 0, samples::max_level));
+    return samples::make_sample(name, level);
+}
+
+measure::FileTrip through_file(const SphericalMap& map, const trace::Ray& ray, unsigned runs) {
+    std::vector<std::byte> bytes;
+    require(container::write(map, {}, bytes), "benchmark");
+    std::vector<double> seconds;
+    trace::Hit hit;
+    for (unsigned run = 0; run < runs; ++run) {
+        const auto start = std::chrono::steady_clock::now();
+        container::File file;
+        require(container::open(bytes, file), "benchmark");
+        const trace::TraceMap traced(file.map().parts.front());
+        trace::closest_hit(traced, ray, trace::no_flags, hit);
+        seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    return {bytes.size(), measure::spread_of(seconds)};
+}
+
+} // namespace
+
+void bench_trace(const BenchArguments& given) {
+    Arguments arguments = complete(given);
+    if (!given.csv.empty()) check_output_file(given.csv);
+    if (!given.plots.empty()) check_output_folder(given.plots);
+    TraceReport report;
+    report.rays = arguments.bench.rays;
+    report.runs = arguments.bench.runs;
+    report.target = trace::stream_target();
+    {
+        const InterruptGuard guard;
+        double done = 0;
+        for (const std::string& model : arguments.models) {
+            ProgressReport progress("benchmark of " + model, given.quiet);
+            arguments.bench.through_file = through_file;
+            arguments.bench.progress = [&](double share, const std::string&) {
+                progress.update((done + share) / double(arguments.models.size()));
+                return interrupt_signal() == 0;
+            };
+            TraceModel result{model, measure::bench_trace(load(model), arguments.bench), {}};
+            result.bars = measure::trace_bars(model, result.benchmark);
+            report.models.push_back(std::move(result));
+            done += 1;
+        }
+        if (!given.csv.empty()) {
+            const std::string lines = report_csv(report);
+            StagedFile file(given.csv);
+            file.write(std::as_bytes(std::span(lines)));
+            file.commit();
+        }
+    }
+    print(given.format == ReportFormat::json ? json_text(report_json(report)) : report_text(report));
+}
+
+} // namespace spa::tools
