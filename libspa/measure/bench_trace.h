@@ -22,7 +22,8 @@ struct TraceTiming {
     unsigned threads = 1;
     CallKind kind = CallKind::single;
     std::string call; // TraceMethod::call_name
-    Spread ns;        // wall clock a ray, nanoseconds
+    Spread ns; // nanoseconds a ray: of one thread its own time (which other processes do not add to), of
+               // several the wall clock's
 };
 
 struct SetErrors {
