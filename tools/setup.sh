@@ -21,6 +21,7 @@ libdraco-dev
 libegl-dev
 libembree-dev
 libgl-dev
+libhwy-dev
 libmeshoptimizer-dev
 libopenimageio-dev
 libopengl-dev
@@ -37,12 +38,18 @@ libgl1-mesa-dri
 LIST
         ;;
     test)
+        # The last five: the tracing text on the GPU, which is Mesa's software Vulkan.
         cat <<'LIST'
 libgtest-dev
 nodejs:node
 npm:npm
 python3:python3
 zstd
+glslang-tools
+libvulkan-dev
+mesa-vulkan-drivers
+spirv-tools
+vulkan-validationlayers
 LIST
         ;;
     ci)

@@ -123,6 +123,16 @@ TEST(ArchitectureRules, ContainerUsesCoreButNotMesh) {
     EXPECT_EQ(include_findings(root, "formats/container/x.cpp", bad).size(), 2U);
 }
 
+// The text runs on GPUs: it takes nothing of the project, and the tracers take it.
+TEST(ArchitectureRules, ShadersUseNothingAndTraceUsesThem) {
+    EXPECT_EQ(include_findings(root, "shaders/x.h", "#include \"../libspa/core/vector.h\"\n").size(), 1U);
+    EXPECT_EQ(include_findings(root, "shaders/x.h", "#include <immintrin.h>\n").size(), 1U);
+    EXPECT_TRUE(include_findings(root, "shaders/x.h", "#include \"spa_map.h\"\n#include <bit>\n").empty());
+    const std::string include = "#include \"../../shaders/spa_trace.h\"\n";
+    EXPECT_TRUE(include_findings(root, "libspa/trace/x.cpp", include).empty());
+    EXPECT_EQ(include_findings(root, "libspa/bake/x.cpp", include).size(), 1U);
+}
+
 TEST(ArchitectureRules, IncludesAreRelativeAndExist) {
     EXPECT_EQ(include_findings(root, "tests/x.cpp", "#include \"libspa/core/vector.h\"\n").size(), 1U);
     EXPECT_TRUE(include_findings(root, "tests/x.cpp", "#include \"../libspa/core/vector.h\"\n").empty());
