@@ -2,7 +2,8 @@
 // What the tracing text needs of its language: C++20, GLSL (460 and ES 3.00) or HLSL.
 //
 // The text keeps to what all of them share: float2/float3 and uint, structs returned by value, member-wise
-// assignment, no default arguments, no global constants, no recursion. This file maps the rest:
+// assignment, no default arguments, no global constants, no recursion. No call that changes anything stands in
+// an operand of &&, || or ?:, because HLSL evaluates all of them. This file maps the rest:
 //   SPA_OUT(type)    a parameter that is written
 //   SPA_INOUT(type)  a parameter that is read and written
 //   spa_bits(f), spa_float(u)   a float's pattern, and back
@@ -10,13 +11,13 @@
 //
 // An application says where the words are:
 //   C++                   SpaWords{pointer}
-//   GLSL 460              before the include: #define SPA_LOAD(index) words[index], over a buffer or texture
-//   of
-//                         its own; SpaWords is the index of the image's first word in it
-//   GLSL ES 3.00          the same, for example #define SPA_LOAD(index) texelFetch(words,
-//                         ivec2(index & 1023u, index >> 10u), 0).x
-//   HLSL                  the same, for example #define SPA_LOAD(index) words.Load(4 * (index)); and before
-//                         the include #define SPA_HLSL
+//   GLSL 460              before the include: #define SPA_LOAD(index) image_words[index], over a buffer or
+//                         texture of its own (not called `words`, which is a parameter here); SpaWords is the
+//                         index of the image's first word in it
+//   GLSL ES 3.00          the same, for example #define SPA_LOAD(index) texelFetch(image_words,
+//                         ivec2((index) & 1023u, (index) >> 10u), 0).x
+//   HLSL                  the same, for example #define SPA_LOAD(index) image_words.Load(4 * (index)); and
+//                         before the include #define SPA_HLSL
 #ifndef SPA_LANGUAGE_H
 #define SPA_LANGUAGE_H
 

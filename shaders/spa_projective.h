@@ -215,7 +215,9 @@ SPA_FUNCTION bool spa_walk(SpaMap map, SpaStretch stretch, uint flags, SPA_INOUT
         if (meets && level > 0u) {
             level -= 1u;
         } else {
-            if (meets && spa_cross_cell(map, stretch, x, y, s, s1, flags, state, event, piece, tri)) {
+            bool found = false;
+            if (meets) found = spa_cross_cell(map, stretch, x, y, s, s1, flags, state, event, piece, tri);
+            if (found) {
                 walk.x = x;
                 walk.y = y;
                 walk.s0 = s;
@@ -285,8 +287,12 @@ SPA_FUNCTION bool spa_trace_projective(SpaMap map, SpaRay ray, uint flags, SPA_O
     for (uint n = 0u; n < 4u; n += 1u) {
         float to = n == 0u ? first : (n == 1u ? second : (n == 2u ? third : chord.t1));
         SpaStretch stretch;
-        if (from < to && spa_stretch(map, chord.foot, ray.direction, crossings, from, to, stretch) &&
-            spa_walk(map, stretch, flags, state, event, piece, tri, walk)) {
+        bool found = false;
+        if (from < to) {
+            if (spa_stretch(map, chord.foot, ray.direction, crossings, from, to, stretch))
+                found = spa_walk(map, stretch, flags, state, event, piece, tri, walk);
+        }
+        if (found) {
             if ((flags & SPA_ANY_HIT) == 0u) {
                 hit = spa_finish(map, ray, chord, stretch, event, piece, tri, walk.x, walk.y);
             } else {
