@@ -2,8 +2,8 @@
 // What the tracing text needs of its language: C++20, GLSL (460 and ES 3.00) or HLSL.
 //
 // The text keeps to what all of them share: float2/float3 and uint, structs returned by value, member-wise
-// assignment, no default arguments, no global constants, no recursion. No call that changes anything stands in
-// an operand of &&, || or ?:, because HLSL evaluates all of them. This file maps the rest:
+// assignment, no default arguments, no global constants, no recursion. No call that changes anything stands
+// in an operand of &&, || or ?:, because HLSL evaluates all of them. This file maps the rest:
 //   SPA_OUT(type)    a parameter that is written
 //   SPA_INOUT(type)  a parameter that is read and written
 //   spa_bits(f), spa_float(u)   a float's pattern, and back

@@ -119,7 +119,8 @@ SPA_FUNCTION float3 spa_gradient(SpaMap map, SpaStretch stretch, SpaPlane plane,
 // plane(p) * l(p) at time t, evaluated from the cell's corner.
 SPA_FUNCTION float spa_plane_at(SpaMap map, SpaStretch stretch, float3 foot, float3 direction, SpaPlane plane,
                                 uint x, uint y, float t) {
-    float cells = float((map.width - 1u) / 2u);
+    uint half_cells = (map.width - 1u) / 2u;
+    float cells = float(half_cells);
     float a = stretch.signs.x * (foot.x + direction.x * t);
     float b = stretch.signs.y * (foot.y + direction.y * t);
     float c = stretch.signs.z * (foot.z + direction.z * t);

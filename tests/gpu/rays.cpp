@@ -149,7 +149,7 @@ std::vector<TestRay> make_rays(const Grid& grid, std::size_t count, std::uint32_
     Maker maker(grid, seed);
     std::vector<TestRay> rays;
     rays.reserve(count);
-    while (rays.size() < count) rays.push_back(maker.make(rays.size() % Maker::kinds));
+    while (rays.size() < count) rays.push_back(maker.make(rays.size() / 64 % Maker::kinds));
     return rays;
 }
 

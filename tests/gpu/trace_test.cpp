@@ -18,8 +18,6 @@
 namespace spa::test {
 namespace {
 
-constexpr std::size_t rays_of_a_trace = 1U << 17;
-
 struct Scene {
     const char* name;
     const char* sample;
@@ -27,6 +25,16 @@ struct Scene {
     Grid grid;
     std::uint32_t layers;
 };
+
+struct Trace {
+    Scene scene;
+    const char* method_name;
+    std::uint32_t method;
+    std::size_t rays;
+};
+
+std::string name_of(const Trace& trace) { return std::string(trace.scene.name) + "_" + trace.method_name; }
+void PrintTo(const Trace& trace, std::ostream* out) { *out << name_of(trace); }
 
 constexpr Grid octahedral(std::uint32_t cells) { return {Mapping::octahedral, cells + 1, cells + 1}; }
 constexpr Grid latlong(std::uint32_t width, std::uint32_t height) {
@@ -64,47 +72,50 @@ struct Language {
 };
 constexpr std::array<Language, 2> languages = {{{"GLSL", "trace.comp"}, {"HLSL", "trace.hlsl"}}};
 
-class TraceOnGpu : public GpuTest, public testing::WithParamInterface<Scene> {
-protected:
-    // The image lies somewhere in the buffer, among words that no trace of it may use.
-    static constexpr std::uint32_t first_word = 37;
-    static constexpr std::uint32_t foreign_word = 0x7FC12345; // a NaN, or an index far outside
-
-    void compare(std::uint32_t method) {
-        const trace::TraceMap map = make_map(GetParam());
-        Buffer image(*device, map.words().size() + 2 * std::size_t(first_word));
-        std::fill(image.words().begin(), image.words().end(), foreign_word);
-        std::copy(map.words().begin(), map.words().end(), image.words().begin() + first_word);
-
-        const std::vector<TestRay> rays = make_rays(GetParam().grid, rays_of_a_trace, method);
-        Buffer ray_words(*device, rays.size() * RAY_WORDS);
-        write_rays(rays, ray_words.words());
-        const std::vector<std::uint32_t> expected = trace_on_cpu(map.map(), ray_words.words(), method);
-
-        for (const Language& language : languages) {
-            const Buffer results(*device, expected.size());
-            const ComputePipeline pipeline(*device, shader(language.shader), 3, sizeof(Parameters));
-            const Parameters parameters{first_word, std::uint32_t(rays.size()), method};
-            const std::array<const Buffer*, 3> buffers = {&image, &ray_words, &results};
-            pipeline.run(buffers, std::as_bytes(std::span(&parameters, 1)), (parameters.count + 63) / 64);
-            const Agreement agreement = agreement_of(rays, expected, results.words());
-            std::cout << "  " << language.name << ": " << summary(agreement) << "\n";
-            EXPECT_GT(agreement.hits, rays.size() / 10);
-            EXPECT_LT(agreement.hits, rays.size());
-            EXPECT_LE(agreement.differ, rays.size() / 100'000) << agreement.first_difference;
-        }
+// Every method on every scene that it takes.
+std::vector<Trace> traces() {
+    std::vector<Trace> all;
+    for (const Scene& scene : scenes) {
+        if (scene.grid.mapping == Mapping::octahedral)
+            all.push_back({scene, "projective", METHOD_PROJECTIVE, 1U << 17});
     }
-};
-
-TEST_P(TraceOnGpu, Projective) {
-    if (GetParam().grid.mapping != Mapping::octahedral) GTEST_SKIP() << "octahedral maps only";
-    compare(METHOD_PROJECTIVE);
+    return all;
 }
-TEST_P(TraceOnGpu, Fan) { compare(METHOD_FAN); }
-TEST_P(TraceOnGpu, March) { compare(METHOD_MARCH); }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, TraceOnGpu, testing::ValuesIn(scenes),
-                         [](const auto& scene) { return scene.param.name; });
+class TraceOnGpu : public GpuTest, public testing::WithParamInterface<Trace> {};
+
+TEST_P(TraceOnGpu, GivesTheResultsOfTheCpu) {
+    // The image lies somewhere in the buffer, among words that no trace of it may use.
+    constexpr std::uint32_t first_word = 37;
+    constexpr std::uint32_t foreign_word = 0x7FC12345; // a NaN, or an index far outside
+
+    const trace::TraceMap map = make_map(GetParam().scene);
+    Buffer image(*device, map.words().size() + 2 * std::size_t(first_word));
+    std::fill(image.words().begin(), image.words().end(), foreign_word);
+    std::copy(map.words().begin(), map.words().end(), image.words().begin() + first_word);
+
+    const std::uint32_t method = GetParam().method;
+    const std::vector<TestRay> rays = make_rays(GetParam().scene.grid, GetParam().rays, method);
+    Buffer ray_words(*device, rays.size() * RAY_WORDS);
+    write_rays(rays, ray_words.words());
+    const std::vector<std::uint32_t> expected = trace_on_cpu(map.map(), ray_words.words(), method);
+
+    for (const Language& language : languages) {
+        const Buffer results(*device, expected.size());
+        const ComputePipeline pipeline(*device, shader(language.shader), 3, sizeof(Parameters));
+        const Parameters parameters{first_word, std::uint32_t(rays.size()), method};
+        const std::array<const Buffer*, 3> buffers = {&image, &ray_words, &results};
+        pipeline.run(buffers, std::as_bytes(std::span(&parameters, 1)), (parameters.count + 63) / 64);
+        const Agreement agreement = agreement_of(rays, expected, results.words());
+        std::cout << "  " << language.name << ": " << summary(agreement) << "\n";
+        EXPECT_GT(agreement.hits, rays.size() / 10);
+        EXPECT_LT(agreement.hits, rays.size());
+        EXPECT_LE(agreement.differ, rays.size() / 100'000) << agreement.first_difference;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Traces, TraceOnGpu, testing::ValuesIn(traces()),
+                         [](const auto& trace) { return name_of(trace.param); });
 
 } // namespace
 } // namespace spa::test
