@@ -23,6 +23,22 @@ float t_error(const TestRay& ray, Result a, Result b) {
     return std::fabs(number(a, RESULT_T) - number(b, RESULT_T)) * length;
 }
 
+// What a picture would show of a linear colour, and of a number between 0 and 1: codes of 255.
+float color_code(float linear) {
+    return 255 * (linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F);
+}
+float share_code(float share) { return 255 * share; }
+
+float shading_error(Result a, Result b) {
+    float worst = std::fabs(share_code(number(a, RESULT_COVERAGE)) - share_code(number(b, RESULT_COVERAGE)));
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t color = RESULT_COLOR + i, normal = RESULT_SHADING_NORMAL + i;
+        worst = std::max({worst, std::fabs(color_code(number(a, color)) - color_code(number(b, color))),
+                          std::fabs(share_code(number(a, normal)) - share_code(number(b, normal))) / 2});
+    }
+    return worst;
+}
+
 bool same_hit(const TestRay& ray, Result a, Result b) {
     if (a[RESULT_HIT] != b[RESULT_HIT]) return false;
     if (a[RESULT_HIT] == 0 || (ray.flags & SPA_ANY_HIT) != 0) return true;
@@ -64,8 +80,9 @@ Agreement agreement_of(std::span<const TestRay> rays, std::span<const std::uint3
         if (std::equal(a.begin(), a.end(), b.begin())) continue;
         ++agreement.not_identical;
         if (same_hit(rays[i], a, b)) {
-            if ((rays[i].flags & SPA_ANY_HIT) == 0)
-                agreement.t_error = std::max(agreement.t_error, t_error(rays[i], a, b));
+            if ((rays[i].flags & SPA_ANY_HIT) != 0) continue;
+            agreement.t_error = std::max(agreement.t_error, t_error(rays[i], a, b));
+            agreement.shading_error = std::max(agreement.shading_error, shading_error(a, b));
         } else if (agreement.differ++ == 0) {
             agreement.first_difference = in_words(i, rays[i], a, b);
         }
@@ -77,7 +94,8 @@ std::string summary(const Agreement& agreement) {
     std::ostringstream out;
     out << agreement.rays << " rays, " << agreement.hits << " hits; " << agreement.differ
         << " hit something else, " << agreement.not_identical
-        << " are not identical to the bit, t differs by " << agreement.t_error << " R at most";
+        << " are not identical to the bit, t differs by " << agreement.t_error << " R and shading by "
+        << agreement.shading_error << " of 255 at most";
     return out.str();
 }
 

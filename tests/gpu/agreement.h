@@ -17,6 +17,7 @@ struct Agreement {
     std::size_t differ = 0;        // rays that hit something else than expected
     std::size_t not_identical = 0; // rays with any bit that is not as expected, those above included
     float t_error = 0;             // the largest among rays that hit the same, in R
+    float shading_error = 0;       // the same of colours, coverage and normals, in codes of 255
     std::string first_difference;  // in words
 };
 

@@ -34,6 +34,8 @@ public:
     }
     static constexpr std::size_t kinds = 10;
 
+    std::uint32_t word() { return std::uint32_t(random_()); }
+
 private:
     std::uint32_t below(std::uint32_t end) { return std::uint32_t(random_() % end); }
     float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
@@ -149,7 +151,12 @@ std::vector<TestRay> make_rays(const Grid& grid, std::size_t count, std::uint32_
     Maker maker(grid, seed);
     std::vector<TestRay> rays;
     rays.reserve(count);
-    while (rays.size() < count) rays.push_back(maker.make(rays.size() / 64 % Maker::kinds));
+    std::uint32_t options = 0;
+    while (rays.size() < count) {
+        if (rays.size() % 64 == 0) options = maker.word();
+        rays.push_back(maker.make(rays.size() / 64 % Maker::kinds));
+        rays.back().options = options;
+    }
     return rays;
 }
 

@@ -15,6 +15,7 @@ void write_rays(std::span<const TestRay> rays, std::span<std::uint32_t> words) {
                                   ray.direction.y, ray.direction.z, ray.t_max})
             *out++ = std::bit_cast<std::uint32_t>(value);
         *out++ = test.flags;
+        *out++ = test.options;
     }
 }
 

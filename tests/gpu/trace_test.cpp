@@ -78,6 +78,8 @@ std::vector<Trace> traces() {
     for (const Scene& scene : scenes) {
         if (scene.grid.mapping == Mapping::octahedral)
             all.push_back({scene, "projective", METHOD_PROJECTIVE, 1U << 17});
+        all.push_back({scene, "fan", METHOD_FAN, 1U << 15});
+        all.push_back({scene, "march", METHOD_MARCH, 1U << 15});
     }
     return all;
 }
@@ -111,6 +113,7 @@ TEST_P(TraceOnGpu, GivesTheResultsOfTheCpu) {
         EXPECT_GT(agreement.hits, rays.size() / 10);
         EXPECT_LT(agreement.hits, rays.size());
         EXPECT_LE(agreement.differ, rays.size() / 100'000) << agreement.first_difference;
+        EXPECT_LE(agreement.shading_error, 1);
     }
 }
 
