@@ -250,6 +250,7 @@ SPA_FUNCTION bool spa_walk(SpaMap map, SpaStretch stretch, uint flags, SPA_INOUT
 SPA_FUNCTION bool spa_trace_projective(SpaMap map, SpaRay ray, uint flags, SPA_OUT(SpaHit) hit) {
     hit = spa_no_hit();
     if (map.mapping != SPA_OCTAHEDRAL) return false;
+    if (!(ray.t_min <= ray.t_max)) return false;
     SpaChord chord;
     if (!spa_chord(ray, map.radius, chord)) return false;
     float3 crossings = float3(spa_crossing(chord.foot.x, ray.direction.x, chord.t0, chord.t1),
