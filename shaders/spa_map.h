@@ -40,7 +40,9 @@ SPA_BEGIN
 #define SPA_HEADER_DEPTHS 17u
 #define SPA_HEADER_IMAGES 18u // SPA_IMAGE_WORDS words a surface
 
-#define SPA_HEADER_WORDS 20u
+#define SPA_HEADER_BOX 20u // floats: the box around the stored surface, lowest x, y, z, highest x, y, z
+
+#define SPA_HEADER_WORDS 26u
 #define SPA_MAGIC 0x54415053u // "SPAT"
 
 #define SPA_LATLONG 1u
@@ -103,6 +105,8 @@ struct SpaMap {
     uint prisms;
     uint depths;
     uint images;
+    float3 box_low;
+    float3 box_high;
 };
 
 SPA_FUNCTION SpaMap spa_open(SpaWords words) {
@@ -125,6 +129,12 @@ SPA_FUNCTION SpaMap spa_open(SpaWords words) {
     map.prisms = spa_load(words, SPA_HEADER_PRISMS);
     map.depths = spa_load(words, SPA_HEADER_DEPTHS);
     map.images = spa_load(words, SPA_HEADER_IMAGES);
+    map.box_low =
+        float3(spa_float(spa_load(words, SPA_HEADER_BOX)), spa_float(spa_load(words, SPA_HEADER_BOX + 1u)),
+               spa_float(spa_load(words, SPA_HEADER_BOX + 2u)));
+    map.box_high = float3(spa_float(spa_load(words, SPA_HEADER_BOX + 3u)),
+                          spa_float(spa_load(words, SPA_HEADER_BOX + 4u)),
+                          spa_float(spa_load(words, SPA_HEADER_BOX + 5u)));
     return map;
 }
 

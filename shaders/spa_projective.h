@@ -15,8 +15,10 @@
 
 SPA_BEGIN
 
-// The walk begins with 2^SPA_START_BITS nodes a side of a quadrant.
+// The walk begins with 2^SPA_START_BITS nodes a side of a quadrant and climbs to 2^SPA_TOP_BITS where nothing
+// is near.
 #define SPA_START_BITS 4u
+#define SPA_TOP_BITS 2u
 // Later than any sigma.
 #define SPA_NEVER 1e20f
 
@@ -179,9 +181,9 @@ struct SpaWalk {
 SPA_FUNCTION bool spa_walk(SpaMap map, SpaStretch stretch, uint flags, SPA_INOUT(uint) state,
                            SPA_INOUT(SpaEvent) event, SPA_INOUT(SpaPiece) piece, SPA_INOUT(SpaTriangle) tri,
                            SPA_INOUT(SpaWalk) walk) {
-    uint start = map.levels > SPA_START_BITS ? map.levels - SPA_START_BITS : 0u;
+    uint top = map.levels > SPA_TOP_BITS ? map.levels - SPA_TOP_BITS : 0u;
     uint words = (map.flags & SPA_MAP_TWO_RANGES) != 0u ? 2u : 1u;
-    uint level = start;
+    uint level = map.levels > SPA_START_BITS ? map.levels - SPA_START_BITS : 0u;
     bool go_x = stretch.dx > 0.0f;
     bool go_y = stretch.dy > 0.0f;
     float per_x = go_x ? 1.0f / max(stretch.dx, 1e-20f) : 0.0f;
@@ -192,7 +194,7 @@ SPA_FUNCTION bool spa_walk(SpaMap map, SpaStretch stretch, uint flags, SPA_INOUT
     uint y = min(uint(stretch.y0), end_y - 1u);
     float s = 0.0f;
     // x + y grows with every step that does not go down.
-    uint bound = (end_x + end_y + 2u) * (start + 2u);
+    uint bound = (end_x + end_y + 2u) * (top + 2u);
     for (uint step = 0u; step < bound; step += 1u) {
         // In the solid the nodes say nothing about where it ends.
         if (state != SPA_OUTSIDE) level = 0u;
@@ -240,10 +242,37 @@ SPA_FUNCTION bool spa_walk(SpaMap map, SpaStretch stretch, uint flags, SPA_INOUT
             y = min(y, end_y - 1u);
             x = min(x, end_x - 1u);
             s = s1;
-            if (climb) level = min(level + 1u, start);
+            if (climb) level = min(level + 1u, top);
         }
     }
     return false;
+}
+
+// When the ray enters and leaves the box in one coordinate: before anything and after everything if it never
+// does.
+SPA_FUNCTION float spa_enters(float position, float direction, float low, float high) {
+    if (direction == 0.0f) return -SPA_NEVER;
+    return ((direction > 0.0f ? low : high) - position) / direction;
+}
+SPA_FUNCTION float spa_leaves(float position, float direction, float low, float high) {
+    if (direction == 0.0f) return SPA_NEVER;
+    return ((direction > 0.0f ? high : low) - position) / direction;
+}
+
+// Keeps of a chord what lies in the box around the surface. False: nothing does.
+SPA_FUNCTION bool spa_in_box(SpaMap map, float3 direction, SPA_INOUT(SpaChord) chord) {
+    float3 low = map.box_low;
+    float3 high = map.box_high;
+    float enters = max(spa_enters(chord.foot.x, direction.x, low.x, high.x),
+                       max(spa_enters(chord.foot.y, direction.y, low.y, high.y),
+                           spa_enters(chord.foot.z, direction.z, low.z, high.z)));
+    float leaves = min(spa_leaves(chord.foot.x, direction.x, low.x, high.x),
+                       min(spa_leaves(chord.foot.y, direction.y, low.y, high.y),
+                           spa_leaves(chord.foot.z, direction.z, low.z, high.z)));
+    chord.starts_inside_sphere = chord.starts_inside_sphere && chord.t0 > enters;
+    chord.t0 = max(chord.t0, enters);
+    chord.t1 = min(chord.t1, leaves);
+    return chord.t0 < chord.t1;
 }
 
 // The first hit of the ray with t_min <= t <= t_max. flags: SPA_CULL_..., SPA_ANY_HIT.
@@ -252,7 +281,7 @@ SPA_FUNCTION bool spa_trace_projective(SpaMap map, SpaRay ray, uint flags, SPA_O
     if (map.mapping != SPA_OCTAHEDRAL) return false;
     if (!(ray.t_min <= ray.t_max)) return false;
     SpaChord chord;
-    if (!spa_chord(ray, map.radius, chord)) return false;
+    if (!spa_chord(ray, map.radius, chord) || !spa_in_box(map, ray.direction, chord)) return false;
     float3 crossings = float3(spa_crossing(chord.foot.x, ray.direction.x, chord.t0, chord.t1),
                               spa_crossing(chord.foot.y, ray.direction.y, chord.t0, chord.t1),
                               spa_crossing(chord.foot.z, ray.direction.z, chord.t0, chord.t1));

@@ -104,10 +104,12 @@ private:
             result_.w_max = std::max(result_.w_max, w);
         }
         if (result_.w_max == 0) result_.w_min = result_.w_max = 1;
-        float radius = 0;
-        for (const float depth : samples_.depth) radius = std::max(radius, depth);
         // Of triangles the corners are farthest; regions with tangent planes add to it as they are made.
-        result_.radius = radius * (1 + 1e-6F);
+        for (std::uint32_t y = 0; y < samples_.grid.height; ++y)
+            for (std::uint32_t x = 0; x < samples_.grid.width; ++x) {
+                const float w = w_of(0, {x, y});
+                if (w < far_w) extend(sample_direction(samples_.grid, {x, y}) * (1 / double(w)));
+            }
         result_.uniform_core = true;
     }
 
@@ -269,7 +271,7 @@ private:
             range.low = std::min(range.low, float(outer + change(outer_slope, offset)));
             range.high = std::max(range.high, to_center ? far_w : float(inner + change(inner_slope, offset)));
             result_.w_max = std::max(result_.w_max, float(outer + change(outer_slope, offset)));
-            extend(corner, offset, t, outer + change(outer_slope, offset));
+            extend(point_at(corner, offset, t, outer + change(outer_slope, offset)));
         }
         ranges.add(range);
         result_.w_min = std::min(result_.w_min, range.low);
@@ -286,13 +288,27 @@ private:
         return {float(w - slope.u * corner.u - slope.v * corner.v), float(slope.u), float(slope.v)};
     }
 
-    // The radius, by a point of the surface in the triangle's cell.
-    void extend(const Corner& corner, const Slope& offset, const MapTriangle& t, double w) {
+    // A point of the surface in a triangle's cell.
+    [[nodiscard]] Vec3d point_at(const Corner& corner, const Slope& offset, const MapTriangle& t,
+                                 double w) const {
         const double a = (t.x + corner.u + offset.u) / cells_count_;
         const double b = (t.y + corner.v + offset.v) / cells_count_;
         const bool upper = t.x + t.y + t.beyond < cells_count_;
-        const Vec3d g = upper ? Vec3d{a, b, 1 - a - b} : Vec3d{1 - b, 1 - a, a + b - 1};
-        result_.radius = std::max(result_.radius, float(length(g) / w) * (1 + 1e-6F));
+        const Vec3d g = upper ? Vec3d{a, b, 1 - a - b} : Vec3d{1 - b, 1 - a, 1 - a - b};
+        return Vec3d{(t.quadrant & 1U) == 0 ? g.x : -g.x, (t.quadrant & 2U) == 0 ? g.y : -g.y, g.z} * (1 / w);
+    }
+
+    // Radius and box hold the point. By more than rays are off there.
+    void extend(Vec3d point) {
+        constexpr float margin = 4e-6F;
+        result_.radius = std::max(result_.radius, float(length(point)) * (1 + margin));
+        const Vec3f p = to_float(point);
+        result_.box_low = {std::min(result_.box_low.x, p.x - margin),
+                           std::min(result_.box_low.y, p.y - margin),
+                           std::min(result_.box_low.z, p.z - margin)};
+        result_.box_high = {std::max(result_.box_high.x, p.x + margin),
+                            std::max(result_.box_high.y, p.y + margin),
+                            std::max(result_.box_high.z, p.z + margin)};
     }
 
     const Part& part_;

@@ -35,6 +35,7 @@ struct MapCells {
         cells; // place of a cell's two (place, count) in `lists`, 0 = both triangles are pure
     std::vector<std::uint32_t> places; // which words of `lists` are themselves places in `lists`
     float radius = 0;                  // of the farthest point, in units of R, rounded up
+    Vec3f box_low, box_high;           // around all points, rounded outward
     float w_min = 0, w_max = 0;        // of all finite ends; 1 if there are none
     bool uniform_core = false;         // around the centre, within 1/w_max, everything is solid, or nothing
 };

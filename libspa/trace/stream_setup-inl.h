@@ -37,6 +37,18 @@ HWY_INLINE VF crossing(VF position, VF direction, VF t0, VF t1) {
     return hn::IfThenElse(hn::Eq(direction, hn::Zero(df)), t1, t);
 }
 
+// spa_enters and spa_leaves
+HWY_INLINE VF enters_box(VF position, VF direction, float low, float high) {
+    const VF side = hn::IfThenElse(hn::Gt(direction, hn::Zero(df)), hn::Set(df, low), hn::Set(df, high));
+    const VF t = hn::Div(hn::Sub(side, position), direction);
+    return hn::IfThenElse(hn::Eq(direction, hn::Zero(df)), hn::Set(df, -SPA_NEVER), t);
+}
+HWY_INLINE VF leaves_box(VF position, VF direction, float low, float high) {
+    const VF side = hn::IfThenElse(hn::Gt(direction, hn::Zero(df)), hn::Set(df, high), hn::Set(df, low));
+    const VF t = hn::Div(hn::Sub(side, position), direction);
+    return hn::IfThenElse(hn::Eq(direction, hn::Zero(df)), hn::Set(df, SPA_NEVER), t);
+}
+
 // The chords of the rays that meet the map's sphere.
 inline void find_chords(const shader::SpaMap& map, const Ray* rays, std::size_t count, ChordBlock& chords) {
     static_assert(sizeof(Ray) == 8 * sizeof(float));
@@ -65,11 +77,21 @@ inline void find_chords(const shader::SpaMap& map, const Ray* rays, std::size_t 
         const VF half_chord = hn::Sqrt(hn::Div(inside, dd));
         const VF t_min = hn::Sub(ray_min, foot_t);
         const VF negative = hn::Neg(half_chord);
-        const MF unknown = hn::Gt(t_min, negative);
-        const VF t0 = hn::Max(negative, t_min);
-        const VF t1 = hn::Min(half_chord, hn::Sub(ray_max, foot_t));
+        MF unknown = hn::Gt(t_min, negative);
+        VF t0 = hn::Max(negative, t_min);
+        VF t1 = hn::Min(half_chord, hn::Sub(ray_max, foot_t));
+        const VF enters = hn::Max(enters_box(foot.x, direction.x, map.box_low.x, map.box_high.x),
+                                  hn::Max(enters_box(foot.y, direction.y, map.box_low.y, map.box_high.y),
+                                          enters_box(foot.z, direction.z, map.box_low.z, map.box_high.z)));
+        const VF leaves = hn::Min(leaves_box(foot.x, direction.x, map.box_low.x, map.box_high.x),
+                                  hn::Min(leaves_box(foot.y, direction.y, map.box_low.y, map.box_high.y),
+                                          leaves_box(foot.z, direction.z, map.box_low.z, map.box_high.z)));
+        unknown = hn::And(unknown, hn::Gt(t0, enters));
+        const MF chord = hn::Lt(t0, t1);
+        t0 = hn::Max(t0, enters);
+        t1 = hn::Min(t1, leaves);
         const MF real = hn::RebindMask(df, hn::FirstN(du, count - first));
-        const MF meets = hn::And(real, hn::And(hn::Ge(inside, zero), hn::Lt(t0, t1)));
+        const MF meets = hn::And(real, hn::And(hn::And(hn::Ge(inside, zero), chord), hn::Lt(t0, t1)));
         const std::size_t more = hn::CountTrue(df, meets);
         if (more == 0) continue;
 

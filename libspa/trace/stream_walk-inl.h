@@ -19,7 +19,7 @@ namespace spa::trace::HWY_NAMESPACE {
 // What all lanes share.
 struct WalkConstants {
     const std::uint32_t* nodes = nullptr;
-    VU levels, start;
+    VU levels, start, top;
     VF w_max;
     VU code_base;
     int code_shift = 0;
@@ -31,6 +31,7 @@ HWY_INLINE WalkConstants walk_constants(const shader::SpaMap& map) {
     constants.nodes = map.words.first + map.nodes;
     constants.levels = hn::Set(du, map.levels);
     constants.start = hn::Set(du, map.levels > SPA_START_BITS ? map.levels - SPA_START_BITS : 0);
+    constants.top = hn::Set(du, map.levels > SPA_TOP_BITS ? map.levels - SPA_TOP_BITS : 0);
     constants.w_max = hn::Set(df, map.w_max);
     constants.code_base = hn::Set(du, map.code_base);
     constants.code_shift = int(map.code_shift);
@@ -161,7 +162,7 @@ HWY_INLINE void advance(const WalkConstants& constants, const ExitLanes& e, MU m
     VU y = hn::IfThenElse(by_x, hn::Max(lanes.y, hn::Min(at_y, hn::Sub(e.next_y, one))), e.next_y);
     const VU moved = hn::IfThenElse(by_x, x, y);
     const MU climbs = hn::Eq(hn::And(hn::Shr(moved, lanes.level), one), hn::Zero(du));
-    const VU level = hn::IfThenElse(climbs, hn::Min(hn::Add(lanes.level, one), constants.start), lanes.level);
+    const VU level = hn::IfThenElse(climbs, hn::Min(hn::Add(lanes.level, one), constants.top), lanes.level);
     x = hn::Min(x, hn::Sub(lanes.end_x, one));
     y = hn::Min(y, hn::Sub(lanes.end_y, one));
     lanes.x = hn::IfThenElse(mask, x, lanes.x);

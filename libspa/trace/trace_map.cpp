@@ -7,6 +7,7 @@
 
 #include "../core/error.h"
 
+#include <array>
 #include <bit>
 #include <string>
 
@@ -49,6 +50,9 @@ void add_cells(const Part& part, const MapSamples& samples, std::vector<std::uin
     const MapCells cells = find_cells(part, samples);
     const NodePyramid pyramid = build_pyramid(cells, samples.surfaces > 1 ? 2 : 1);
     words[SPA_HEADER_RADIUS] = bits(cells.radius);
+    const std::array<float, 6> box{cells.box_low.x,  cells.box_low.y,  cells.box_low.z,
+                                   cells.box_high.x, cells.box_high.y, cells.box_high.z};
+    for (std::size_t i = 0; i < box.size(); ++i) words[SPA_HEADER_BOX + i] = bits(box[i]);
     words[SPA_HEADER_FLAGS] = pyramid.words == 2 ? SPA_MAP_TWO_RANGES : 0;
     words[SPA_HEADER_LEVELS] = cells.levels;
     words[SPA_HEADER_CODE_BASE] = pyramid.code_base;
