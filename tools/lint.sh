@@ -25,7 +25,7 @@ tidy_one() {
     entry="[.[] | select(.file == \"$file\")][0]"
     directory=$(jq -r "$entry.directory" "$build/compile_commands.json")
     preprocess=$(jq -r "$entry.command" "$build/compile_commands.json" | sed 's/ -o [^ ]* -c / -E -P /')
-    suppressions='find libspa formats samples tests tools -name *.h -exec grep -H NOLINT {} +'
+    suppressions='find libspa formats samples shaders tests tools -name *.h -exec grep -H NOLINT {} +'
     key=$({
         clang-tidy --version
         cat .clang-tidy "$file"
@@ -50,7 +50,7 @@ fi
 cd -- "$(dirname -- "$0")/.."
 
 cpp_files() {
-    find libspa formats samples tests tools \( -name '*.cpp' -o -name '*.h' \) -type f | sort
+    find libspa formats samples shaders tests tools \( -name '*.cpp' -o -name '*.h' \) -type f | sort
 }
 
 case ${1-} in

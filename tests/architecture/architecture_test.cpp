@@ -32,9 +32,9 @@ bool is_cmake(const fs::path& path) {
 bool is_cpp(const fs::path& path) { return path.extension() == ".h" || path.extension() == ".cpp"; }
 
 bool is_source(const fs::path& path) {
-    static const std::set<std::string> extensions = {".sh",    ".in",   ".py",    ".js",   ".mjs",
-                                                     ".glsl",  ".hlsl", ".rgen",  ".rint", ".rchit",
-                                                     ".rmiss", ".comp", ".hexpat"};
+    static const std::set<std::string> extensions = {".sh",    ".in",   ".py",   ".js",   ".mjs",
+                                                     ".glsl",  ".hlsl", ".rgen", ".rint", ".rchit",
+                                                     ".rmiss", ".comp", ".frag", ".vert", ".hexpat"};
     return is_cpp(path) || is_cmake(path) || extensions.contains(path.extension().string());
 }
 
