@@ -54,6 +54,7 @@ Json counts_json(const BakeFacts& facts) {
         {"center_inside", bake.center_inside},
         {"center_moved", bake.center_moved},
         {"layers", layers_json(bake)},
+        {"mixed_triangles", bake.mixed_triangles ? Json(*bake.mixed_triangles) : Json(nullptr)},
         {"dropped_degenerate", source.dropped_degenerate},
         {"dropped_non_finite", source.dropped_non_finite},
         {"ignored_primitives", source.ignored_primitives},
@@ -148,6 +149,9 @@ std::string report_text(const BakeFacts& facts, std::uint64_t output_bytes, doub
         text += line(i == 0 ? "layers" : "",
                      std::to_string(i) + ": outer surface in " + percent(bake.layers[i].outer_coverage) +
                          " of all directions, inner in " + percent(bake.layers[i].inner_coverage));
+    if (bake.mixed_triangles)
+        text += line("mixed", percent(*bake.mixed_triangles) +
+                                  " of the triangles between samples: their corners see different surfaces");
     if (facts.measurement != nullptr) text += line("measured", measured_text(*facts.measurement));
     text += line("bytes", std::to_string(output_bytes) + " (" + byte_count(output_bytes) + ")");
     return text + line("time", fixed(seconds, 2) + " s");

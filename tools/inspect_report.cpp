@@ -5,6 +5,8 @@
 #include "surface_view.h"
 #include "text.h"
 
+#include "../libspa/core/cell_triangles.h"
+
 #include <cmath>
 
 namespace spa::tools {
@@ -26,14 +28,19 @@ std::uint64_t raw_bytes(Sections sections) {
     return sum;
 }
 
+// Of other sections part has no meaning, or none that is known in the file's version.
+bool has_part(const SectionEntry& section) {
+    return container::is_image(section.type) || section.type == container::type_mixed;
+}
+
 const char* side_name(const SectionEntry& section) {
     return section.side == std::uint16_t(container::Side::inner) ? "inner" : "outer";
 }
 
 Json section_json(const SectionEntry& section) {
     Json json = {{"type", container::type_name(section.type)}};
+    if (has_part(section)) json["part"] = section.part;
     if (container::is_image(section.type)) {
-        json["part"] = section.part;
         json["layer"] = section.layer;
         json["side"] = side_name(section);
         json["format"] = name(section.format);
@@ -88,6 +95,8 @@ Json part_json(const Part& part) {
         {"size", size_text({part.mapping, depth.width, depth.height})},
         {"node", part.node},
         {"joint", part.joint},
+        {"center_inside", part.center_inside},
+        {"mixed_triangles", part.mixed.empty() ? Json(nullptr) : Json(mixed_share(part.mixed))},
         {"errors", errors},
         {"layers", layers},
     };
@@ -141,7 +150,7 @@ std::string part_text(const Part& part, std::size_t index) {
         line("  mapping", std::string(name(part.mapping)) + " " +
                               size_text({part.mapping, depth.width, depth.height}) + ", " +
                               std::to_string(depth.width) + "x" + std::to_string(depth.height) + " samples");
-    text += line("  centre", vector_text(part.center));
+    text += line("  centre", vector_text(part.center) + (part.center_inside ? ", inside the solid" : ""));
     text += line("  radius", fixed(part.radius, 6));
     if (part.frame == Mat3{}) {
         text += line("  frame", "object space");
@@ -152,6 +161,8 @@ std::string part_text(const Part& part, std::size_t index) {
     }
     if (part.node >= 0) text += line("  node", std::to_string(part.node));
     if (part.joint >= 0) text += line("  joint", std::to_string(part.joint));
+    if (!part.mixed.empty())
+        text += line("  mixed", percent(mixed_share(part.mixed)) + " of the triangles between samples");
     text += line("  errors", errors_text(part.errors));
     for (std::size_t i = 0; i < part.layers.size(); ++i) {
         const Layer& layer = part.layers[i];
@@ -172,6 +183,14 @@ std::string row(const std::array<std::string, 7>& cells) {
 
 std::string ratio_text(std::uint64_t raw, std::uint64_t stored) { return fixed(ratio(raw, stored), 2) + "x"; }
 
+std::string place_text(const SectionEntry& section) {
+    if (!has_part(section)) return "";
+    std::string text = "part " + std::to_string(section.part);
+    if (container::is_image(section.type))
+        text += " layer " + std::to_string(section.layer) + " " + side_name(section);
+    return text;
+}
+
 std::string sections_text(Sections sections) {
     std::string text = "\nsections\n" + row({"type", "of", "image", "scheme", "stored", "raw", "ratio"});
     std::uint64_t stored = 0;
@@ -179,10 +198,7 @@ std::string sections_text(Sections sections) {
         const bool image = container::is_image(section.type);
         stored += section.stored_length;
         text +=
-            row({container::type_name(section.type),
-                 image ? "part " + std::to_string(section.part) + " layer " + std::to_string(section.layer) +
-                             " " + side_name(section)
-                       : "",
+            row({container::type_name(section.type), place_text(section),
                  image ? std::to_string(section.width) + "x" + std::to_string(section.height) + " " +
                              name(section.format)
                        : "",

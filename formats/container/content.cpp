@@ -4,7 +4,7 @@
 #include "little_endian.h"
 #include "text.h"
 
-#include "../../libspa/core/direction_map.h"
+#include "../../libspa/core/cell_triangles.h"
 
 #include <bit>
 
@@ -85,6 +85,43 @@ Status check_border(const Surroundings& where, Mapping mapping, const ImageView&
     return {};
 }
 
+// Whether two samples have a surface in the same images.
+template <class Code>
+bool same_surfaces(const Part& part, std::size_t i, std::size_t k) {
+    for (const Layer& layer : part.layers) {
+        for (const Surface* surface : {&layer.outer, &layer.inner}) {
+            if (surface->empty()) continue;
+            const ImageView& depth = surface->depth;
+            if ((depth_code<Code>(depth, i) == 0) != (depth_code<Code>(depth, k) == 0)) return false;
+        }
+    }
+    return true;
+}
+
+// Readers interpolate over triangles that are not mixed without asking again what is at their corners.
+template <class Code>
+Status check_mixed(const Surroundings& where, const Part& part) {
+    const std::size_t width = part.layers[0].outer.depth.width;
+    const auto cells = std::uint32_t(width - 1);
+    for (std::uint32_t y = 0; y < cells; ++y) {
+        for (std::uint32_t x = 0; x < cells; ++x) {
+            for (const unsigned triangle : {0U, 1U}) {
+                const std::uint64_t bit = triangle_bit(cells, x, y, triangle);
+                if (is_mixed(part.mixed, bit)) continue;
+                const auto [a, b, c] = triangle_corners(cells, x, y, triangle);
+                const std::size_t first = a.y * width + a.x;
+                if (same_surfaces<Code>(part, first, b.y * width + b.x) &&
+                    same_surfaces<Code>(part, first, c.y * width + c.x))
+                    continue;
+                const std::size_t section =
+                    find_image(where.structure, type_mixed, where.part, 0, Side::outer);
+                return in_section(Issue::corners_differ, where.structure, section, bit / 8);
+            }
+        }
+    }
+    return {};
+}
+
 template <class Code>
 Status check_part_depths(const Surroundings& where, const Part& part) {
     Status status = check_depths<Code>(where, part);
@@ -98,7 +135,7 @@ Status check_part_depths(const Surroundings& where, const Part& part) {
             if (!status.ok()) return status;
         }
     }
-    return {};
+    return part.mixed.empty() ? Status{} : check_mixed<Code>(where, part);
 }
 
 // The most negative code has no positive counterpart and is not in [-1,1].

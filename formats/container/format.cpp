@@ -21,7 +21,8 @@ constexpr std::size_t part_layers = 108;
 constexpr std::size_t part_node = 112;
 constexpr std::size_t part_joint = 116;
 constexpr std::size_t part_errors = 120;
-constexpr std::size_t part_reserved = 152;
+constexpr std::size_t part_flags = 152;
+constexpr std::size_t part_reserved = 156;
 
 Vec3d load_vector(const std::byte* in) {
     return {load<double>(in), load<double>(in + 8), load<double>(in + 16)};
@@ -124,6 +125,8 @@ PartRecord decode_part(std::span<const std::byte, part_record_size> bytes) {
     part.joint = load<std::int32_t>(in + part_joint);
     for (std::size_t i = 0; i < error_figure_fields.size(); ++i)
         part.errors.*error_figure_fields[i].value = load<float>(in + part_errors + 4 * i);
+    record.flags = load<std::uint32_t>(in + part_flags);
+    part.center_inside = (record.flags & part_flag_center_inside) != 0;
     record.reserved_zero = all_zero(bytes.subspan(part_reserved));
     return record;
 }
@@ -147,6 +150,7 @@ void encode_part(const Part& part, std::span<std::byte, part_record_size> bytes)
             store(field, value);
         }
     }
+    store(out + part_flags, part.center_inside ? part_flag_center_inside : 0U);
 }
 
 } // namespace spa::container

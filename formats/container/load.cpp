@@ -75,7 +75,7 @@ public:
     Status read_section(std::size_t i) {
         const SectionEntry& entry = structure_.sections[i];
         const bool full = depth_ == CheckDepth::full;
-        if (!is_known(entry.type)) return skip(i);
+        if (!structure_.knows(entry.type)) return skip(i);
         if (entry.raw_length > std::uint64_t(PTRDIFF_MAX))
             return at_section(Issue::out_of_memory, structure_, i);
         Bytes bytes;
@@ -94,7 +94,10 @@ public:
             loaded_.map.metadata = text;
             return status;
         }
-        *find_view(loaded_.map, entry) = {bytes.view, entry.width, entry.height, entry.format};
+        if (entry.type == type_mixed)
+            loaded_.map.parts[entry.part].mixed = bytes.view;
+        else
+            *find_view(loaded_.map, entry) = {bytes.view, entry.width, entry.height, entry.format};
         if (!bytes.held.empty()) loaded_.buffers.push_back(std::move(bytes.held));
         return {};
     }

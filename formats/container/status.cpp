@@ -17,6 +17,7 @@ constexpr std::string_view raise = "If you trust the file, raise the limit.";
 // "DPTH of part 0, layer 1, inner"; other sections by type alone.
 std::string section_name(const Status& status) {
     std::string text = type_name(status.type);
+    if (status.type == type_mixed) return text + " of part " + std::to_string(status.part);
     if (!is_image(status.type)) return text;
     text += " of part " + std::to_string(status.part) + ", layer " + std::to_string(status.layer);
     if (status.side <= std::uint16_t(Side::inner))
@@ -27,7 +28,7 @@ std::string section_name(const Status& status) {
 } // namespace
 
 // Ascending. Names and texts are those of SPA.md, letter for letter: a test compares.
-const std::array<IssueEntry, 61> issue_table{{
+const std::array<IssueEntry, 66> issue_table{{
     {Issue::file_too_short, "file_too_short", "the file is shorter than a header", again},
     {Issue::not_a_spa_file, "not_a_spa_file", "the file does not begin with the identifier",
      "This is another kind of file."},
@@ -80,6 +81,12 @@ const std::array<IssueEntry, 61> issue_table{{
     {Issue::image_missing, "image_missing", "an image that must be there is missing", writer},
     {Issue::depth_images_differ, "depth_images_differ",
      "the depth images of a part differ in size or element format", writer},
+    {Issue::mixed_fields_not_zero, "mixed_fields_not_zero",
+     "a MIXD section has layer, side, element format, width or height", writer},
+    {Issue::mixed_part_not_valid, "mixed_part_not_valid",
+     "a MIXD section names a part that does not exist or is not octahedral", writer},
+    {Issue::wrong_mixed_length, "wrong_mixed_length",
+     "the raw length of a MIXD section is not that of its part's map", writer},
 
     {Issue::wrong_parts_length, "wrong_parts_length", "the length of PART is zero or not a multiple of 192",
      writer},
@@ -93,6 +100,7 @@ const std::array<IssueEntry, 61> issue_table{{
      writer},
     {Issue::part_reserved_not_zero, "part_reserved_not_zero", "a reserved byte of a part is not zero",
      writer},
+    {Issue::unknown_part_flags, "unknown_part_flags", "an undefined flag of a part is set", writer},
 
     {Issue::padding_not_zero, "padding_not_zero", "a byte of padding is not zero", again},
     {Issue::checksum_mismatch, "checksum_mismatch", "the stored bytes do not have their checksum", again},
@@ -110,6 +118,8 @@ const std::array<IssueEntry, 61> issue_table{{
     {Issue::normal_not_valid, "normal_not_valid", "a normal has the code -128 or -32768", writer},
     {Issue::border_differs, "border_differs",
      "two depths of an octahedral border that are the same point differ", writer},
+    {Issue::corners_differ, "corners_differ",
+     "a triangle that is not mixed has corners with different numbers of surfaces", writer},
 
     {Issue::metadata_not_utf8, "metadata_not_utf8", "the metadata is not valid UTF-8", writer},
     {Issue::metadata_not_json, "metadata_not_json",

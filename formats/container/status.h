@@ -47,6 +47,9 @@ enum class Issue : std::uint16_t {
     wrong_raw_length = 219,
     image_missing = 220,
     depth_images_differ = 221,
+    mixed_fields_not_zero = 222,
+    mixed_part_not_valid = 223,
+    wrong_mixed_length = 224,
 
     wrong_parts_length = 301,
     part_number_not_valid = 302,
@@ -56,6 +59,7 @@ enum class Issue : std::uint16_t {
     index_not_valid = 306,
     error_figure_not_valid = 307,
     part_reserved_not_zero = 308,
+    unknown_part_flags = 309,
 
     padding_not_zero = 401,
     checksum_mismatch = 402,
@@ -67,6 +71,7 @@ enum class Issue : std::uint16_t {
     layers_out_of_order = 503,
     normal_not_valid = 504,
     border_differs = 505,
+    corners_differ = 506,
 
     metadata_not_utf8 = 601,
     metadata_not_json = 602,
@@ -93,7 +98,7 @@ struct IssueEntry {
     std::string_view advice; // what to do
 };
 
-extern const std::array<IssueEntry, 61> issue_table;
+extern const std::array<IssueEntry, 66> issue_table;
 
 constexpr std::uint32_t no_section = 0xFFFFFFFF;
 

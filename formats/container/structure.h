@@ -19,6 +19,7 @@ struct Structure {
 
     // A newer minor version may use what is reserved today; a reader of today ignores it.
     [[nodiscard]] bool is_newer() const { return header.minor > version_minor; }
+    [[nodiscard]] bool knows(std::uint32_t type) const { return is_known(type, header.minor); }
 };
 
 // A status that points at byte `offset` of the file.
@@ -44,11 +45,12 @@ Status check_entries(const Structure& structure, const Limits& limits);
 // The records of the PART section, whose checksum is right. Fills structure.parts. O(parts).
 Status check_parts(std::span<const std::byte> bytes, const Limits& limits, Structure& structure);
 
-// Every image belongs to a part, has a possible size, is there once; none is missing. O(sections log
-// sections).
+// Every image belongs to a part, has a possible size, is there once; none is missing. The bits of mixed
+// triangles belong to an octahedral part and are as many as it has. O(sections log sections).
 Status check_images(const Structure& structure);
 
-// The section of an image; structure.sections.size() if there is none. O(sections).
+// The section of an image, or of a part's mixed triangles (layer 0, outer); structure.sections.size() if
+// there is none. O(sections).
 std::size_t find_image(const Structure& structure, std::uint32_t type, std::uint32_t part,
                        std::uint32_t layer, Side side);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure.h"
 
+#include "../../libspa/core/cell_triangles.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -41,7 +43,8 @@ bool are_error_figures(const ErrorFigures& e) {
 }
 
 // The issue and the offset in the record of the field at fault.
-std::pair<Issue, std::size_t> check_record(const PartRecord& record, const Limits& limits, bool is_newer) {
+std::pair<Issue, std::size_t> check_record(const PartRecord& record, const Limits& limits,
+                                           std::uint16_t minor) {
     const Part& part = record.part;
     if (!is_position(part.center)) return {Issue::part_number_not_valid, 0};
     if (!is_length(part.radius)) return {Issue::part_number_not_valid, 24};
@@ -55,7 +58,10 @@ std::pair<Issue, std::size_t> check_record(const PartRecord& record, const Limit
     if (part.node < -1) return {Issue::index_not_valid, 112};
     if (part.joint < -1) return {Issue::index_not_valid, 116};
     if (!are_error_figures(part.errors)) return {Issue::error_figure_not_valid, 120};
-    if (!is_newer && !record.reserved_zero) return {Issue::part_reserved_not_zero, 152};
+    // The flags came with minor version 1. What a newer version adds to them is ignored.
+    if (minor == 0 && record.flags != 0) return {Issue::part_reserved_not_zero, 152};
+    if (minor == 1 && (record.flags & ~part_flag_center_inside) != 0) return {Issue::unknown_part_flags, 152};
+    if (minor <= version_minor && !record.reserved_zero) return {Issue::part_reserved_not_zero, 156};
     return {Issue::none, 0};
 }
 
@@ -87,6 +93,13 @@ Status check_image_place(const Structure& structure, std::size_t i) {
     return {};
 }
 
+Status check_mixed_place(const Structure& structure, std::size_t i) {
+    const std::uint32_t part = structure.sections[i].part;
+    const bool octahedral =
+        part < structure.parts.size() && structure.parts[part].part.mapping == Mapping::octahedral;
+    return octahedral ? Status{} : at_section(Issue::mixed_part_not_valid, structure, i);
+}
+
 Status missing(std::uint32_t type, std::uint32_t part, std::uint32_t layer, Side side) {
     Status status = at_byte(Issue::image_missing, header_size);
     status.type = type;
@@ -115,6 +128,10 @@ Status check_part_images(const Structure& structure, const std::vector<Index>& i
                                   std::size_t(depth - structure.sections.data()));
         }
     }
+    const SectionEntry* const mixed = find(type_mixed, 0, Side::outer);
+    if (mixed != nullptr && mixed->raw_length != mixed_bytes(first->width - 1))
+        return at_section(Issue::wrong_mixed_length, structure,
+                          std::size_t(mixed - structure.sections.data()));
     return {};
 }
 
@@ -129,7 +146,7 @@ Status check_parts(std::span<const std::byte> bytes, const Limits& limits, Struc
     for (std::size_t i = 0; i < structure.parts.size(); ++i) {
         const std::size_t at = i * part_record_size;
         structure.parts[i] = decode_part(bytes.subspan(at).first<part_record_size>());
-        const auto [issue, field] = check_record(structure.parts[i], limits, structure.is_newer());
+        const auto [issue, field] = check_record(structure.parts[i], limits, structure.header.minor);
         if (issue != Issue::none) {
             Status status = in_section(issue, structure, 0, at + field);
             status.part = std::uint32_t(i);
@@ -143,7 +160,7 @@ Status check_images(const Structure& structure) {
     std::vector<Index> index;
     index.reserve(structure.sections.size());
     for (std::size_t i = 0; i < structure.sections.size(); ++i)
-        if (is_known(structure.sections[i].type))
+        if (structure.knows(structure.sections[i].type))
             index.push_back({key_of(structure.sections[i]), std::uint32_t(i)});
     std::sort(index.begin(), index.end());
     for (std::size_t i = 1; i < index.size(); ++i)
@@ -151,8 +168,10 @@ Status check_images(const Structure& structure) {
             return at_section(Issue::duplicate_section, structure, index[i].section);
 
     for (std::size_t i = 0; i < structure.sections.size(); ++i) {
-        if (!is_image(structure.sections[i].type)) continue;
-        const Status status = check_image_place(structure, i);
+        const std::uint32_t type = structure.sections[i].type;
+        Status status;
+        if (is_image(type)) status = check_image_place(structure, i);
+        if (type == type_mixed && structure.knows(type)) status = check_mixed_place(structure, i);
         if (!status.ok()) return status;
     }
     // A missing image ends the search, so that the work is bounded by the sections and not by the layer

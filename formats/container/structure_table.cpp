@@ -13,6 +13,7 @@ enum class Field : std::uint8_t {
     type = 0,
     flags = 4,
     part = 8,
+    layer = 12,
     scheme = 16,
     format = 20,
     width = 24,
@@ -68,16 +69,21 @@ Status check_image_entry(const Structure& structure, std::size_t i, const Limits
 Status check_known_entry(const Structure& structure, std::size_t i, const Limits& limits) {
     const SectionEntry& entry = structure.sections[i];
     const bool required = (entry.flags & flag_required) != 0;
-    if (required != (entry.type != type_metadata))
+    if (required == is_optional(entry.type))
         return at_field(Issue::wrong_required_flag, structure, i, Field::flags);
     if (entry.scheme != Scheme::none && entry.scheme != Scheme::zstd && entry.scheme != Scheme::filtered_zstd)
         return at_field(Issue::unknown_scheme, structure, i, Field::scheme);
     if ((entry.type == type_part && entry.scheme != Scheme::none) ||
-        (entry.type == type_metadata && entry.scheme == Scheme::filtered_zstd))
+        (!is_image(entry.type) && entry.scheme == Scheme::filtered_zstd))
         return at_field(Issue::wrong_scheme, structure, i, Field::scheme);
-    if (!is_image(entry.type) && (entry.part != 0 || entry.layer != 0 || entry.side != 0 ||
-                                  std::uint32_t(entry.format) != 0 || entry.width != 0 || entry.height != 0))
-        return at_field(Issue::fields_not_zero, structure, i, Field::part);
+    if (!is_image(entry.type)) {
+        const bool only_part = entry.layer == 0 && entry.side == 0 && std::uint32_t(entry.format) == 0 &&
+                               entry.width == 0 && entry.height == 0;
+        if (entry.type == type_mixed && !only_part)
+            return at_field(Issue::mixed_fields_not_zero, structure, i, Field::layer);
+        if (entry.type != type_mixed && (!only_part || entry.part != 0))
+            return at_field(Issue::fields_not_zero, structure, i, Field::part);
+    }
     if (entry.scheme == Scheme::none && entry.raw_length != entry.stored_length)
         return at_field(Issue::lengths_disagree, structure, i, Field::raw_length);
     if (entry.raw_length / largest_ratio > entry.stored_length)
@@ -178,7 +184,7 @@ Status check_entries(const Structure& structure, const Limits& limits) {
         const SectionEntry& entry = structure.sections[i];
         if (!structure.is_newer() && (entry.flags & ~flag_required) != 0)
             return at_field(Issue::unknown_flags, structure, i, Field::flags);
-        if (!is_known(entry.type)) {
+        if (!structure.knows(entry.type)) {
             if ((entry.flags & flag_required) != 0)
                 return at_field(Issue::unknown_required_section, structure, i, Field::type);
             continue;

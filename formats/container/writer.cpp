@@ -52,6 +52,8 @@ public:
                     if (!status.ok()) return status;
                 }
             }
+            const std::span<const std::byte> mixed = map.parts[i].mixed;
+            if (!mixed.empty()) add({.type = type_mixed, .part = std::uint32_t(i)}, mixed);
         }
         return {};
     }

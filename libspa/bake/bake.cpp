@@ -9,6 +9,7 @@
 #include "pack.h"
 #include "radial.h"
 
+#include "../core/cell_triangles.h"
 #include "../core/error.h"
 #include "../mesh/closest_point.h"
 #include "../mesh/components.h"
@@ -215,7 +216,9 @@ Result bake_with(const Caster& cast, const Model& model, const Options& options,
         part.frame = frame.frame;
         part.radius = frame.radius;
         part.mapping = options.grid.mapping;
+        part.center_inside = report.center_inside;
         pack_layers(shape, shared ? shape : color, options, part, result.map);
+        if (!part.mixed.empty()) report.mixed_triangles = mixed_share(part.mixed);
         for (std::size_t k = 0; k < part.layers.size(); ++k) {
             report.layers.push_back(
                 {coverage(shape.surfaces[2 * k], shape.grid),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From stored surfaces to the images of a part.
+// From stored surfaces to the images of a part and what is stored beside them.
 #pragma once
 
 #include "bake.h"
@@ -9,8 +9,8 @@ namespace spa::bake {
 
 // Fills part.layers from surfaces over the depth grid (`shape`) and over the colour grid's sub-texel samples
 // (`color`, the same number of surfaces). Layers without any outer surface and inner sides without any inner
-// surface are left out; layer 0 always exists. Colours are dilated by color_dilation texels. Pixels go to
-// `map.pixels`.
+// surface are left out; layer 0 always exists. Colours are dilated by color_dilation texels. Of an octahedral
+// map also part.mixed (mixed.h). All bytes go to `map.pixels`.
 constexpr unsigned color_dilation = 8;
 void pack_layers(const SurfaceGrid& shape, const SurfaceGrid& color, const Options& options, Part& part,
                  OwnedMap& map);

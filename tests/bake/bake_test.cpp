@@ -2,6 +2,7 @@
 // Whole bakes, judged by the shapes that were put in.
 #include "../../libspa/bake/bake.h"
 #include "../../libspa/bake/center.h"
+#include "../../libspa/core/cell_triangles.h"
 #include "../../libspa/core/error.h"
 #include "../../libspa/mesh/closest_point.h"
 #include "../support/shapes.h"
@@ -37,6 +38,7 @@ double depth(const Surface& surface, std::uint32_t x, std::uint32_t y) {
 std::vector<std::byte> all_bytes(const SphericalMap& map) {
     std::vector<std::byte> bytes;
     for (const Part& part : map.parts) {
+        bytes.insert(bytes.end(), part.mixed.begin(), part.mixed.end());
         for (const Layer& layer : part.layers) {
             for (const Surface* s : {&layer.outer, &layer.inner}) {
                 for (const ImageView* v : {&s->color, &s->depth, &s->normal}) {
@@ -75,6 +77,9 @@ TEST(Bake, ASphereIsConstantWithinItsFacets) {
     EXPECT_EQ(top, 1.0);
     EXPECT_EQ(result.report.layers.at(0).outer_coverage, 1.0);
     EXPECT_TRUE(result.report.center_inside);
+    EXPECT_TRUE(part.center_inside);
+    EXPECT_EQ(part.mixed.size(), 64U * 64U / 4U);
+    EXPECT_EQ(result.report.mixed_triangles, 0.0);
     EXPECT_TRUE(result.report.warnings.empty());
 }
 
@@ -86,6 +91,11 @@ TEST(Bake, BoxFacesAreExact) {
         const Result result = bake_model(model, options);
         const Part& part = result.map.map.parts.at(0);
         const Surface& outer = part.layers.at(0).outer;
+        // No cliffs, so only what is seen at a very flat angle is mixed. A lat-long map does not say.
+        const bool octahedral = options.grid.mapping == Mapping::octahedral;
+        EXPECT_EQ(result.report.mixed_triangles.has_value(), octahedral);
+        EXPECT_EQ(part.mixed.empty(), !octahedral);
+        EXPECT_LT(mixed_share(part.mixed), 0.04);
         for (std::uint32_t y = 0; y < options.grid.height; ++y) {
             for (std::uint32_t x = 0; x < options.grid.width; ++x) {
                 const Vec3d u = normalize(sample_direction(options.grid, {x, y}));

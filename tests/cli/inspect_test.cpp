@@ -38,6 +38,10 @@ TEST_F(InspectVerb, JsonFollowsItsSchemaAndAddsUp) {
     EXPECT_EQ(schema_error(load_schema("inspect"), report), "");
     EXPECT_EQ(report["bytes"], file("torus.spa").size());
     EXPECT_EQ(report["parts"][0]["size"], "64");
+    EXPECT_EQ(report["parts"][0]["center_inside"], false);
+    EXPECT_EQ(report["parts"][0]["mixed_triangles"], report["metadata"]["report"]["mixed_triangles"]);
+    EXPECT_EQ(report["sections"].back()["type"], "MIXD");
+    EXPECT_EQ(report["sections"].back()["part"], 0);
     std::uint64_t raw = 0;
     for (const json& section : report["sections"]) raw += section["raw_bytes"].get<std::uint64_t>();
     EXPECT_EQ(report["raw_bytes"], raw);
@@ -65,8 +69,8 @@ TEST_F(InspectVerb, CoverageAndDepthAreThoseOfATorus) {
 TEST_F(InspectVerb, TextNamesEverySection) {
     const Outcome outcome = inspect({"torus.spa"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_EQ(outcome.out.rfind("torus.spa: spherical map, version 1.0, 1 part, ", 0), 0U) << outcome.out;
-    for (const char* text : {"PART", "META", "DPTH", "NRML", "COLR", "octahedral 64, 65x65 samples",
+    EXPECT_EQ(outcome.out.rfind("torus.spa: spherical map, version 1.1, 1 part, ", 0), 0U) << outcome.out;
+    for (const char* text : {"PART", "META", "DPTH", "NRML", "COLR", "MIXD", "octahedral 64, 65x65 samples",
                              "not measured", "source.name", "torus.glb", "coverage"})
         EXPECT_NE(outcome.out.find(text), std::string::npos) << text;
 }

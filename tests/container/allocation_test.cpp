@@ -79,7 +79,11 @@ void expect_little(const FileBytes& bytes, Issue expected, Issue expected_of_str
     EXPECT_LT(outcome.total, stream_small);
 }
 
-FileBytes good_file() { return write(make_map({TestPart{}}).map); }
+FileBytes good_file() {
+    TestPart part;
+    part.mixed = false;
+    return write(make_map({part}).map);
+}
 
 constexpr std::uint64_t huge = std::uint64_t(1) << 60U;
 
@@ -106,6 +110,20 @@ TEST(Allocation, HugeClaimsOfSections) {
     reseal_table(bytes);
     // An image of 2^58 elements with the right lengths, in a file that says it is long enough.
     expect_little(bytes, Issue::file_truncated, Issue::image_size_not_valid, no_limits);
+}
+
+TEST(Allocation, HugeClaimsOfMixedTriangles) {
+    FileParts parts = take_apart(write(make_map({TestPart{}}).map));
+    Section& section = parts.find(type_mixed);
+    section.stored = compress(FileBytes(std::size_t(16) << 20U), 1);
+    section.entry.scheme = Scheme::zstd;
+    section.entry.raw_length = std::uint64_t(16) << 20U;
+    // What the frame holds, but not what the map has.
+    expect_little(put_together(parts), Issue::wrong_mixed_length, Issue::wrong_mixed_length, no_limits);
+    expect_little(put_together(parts), Issue::too_many_raw_bytes, Issue::too_many_raw_bytes,
+                  {.raw_bytes = std::uint64_t(1) << 20U});
+    section.entry.raw_length = huge;
+    expect_little(put_together(parts), Issue::impossible_ratio, Issue::impossible_ratio, no_limits);
 }
 
 TEST(Allocation, ALongUnknownSectionIsNotHeld) {

@@ -20,6 +20,13 @@ FileBytes with_part_value(std::size_t offset, T value) {
     return edited(good_file(), [&](FileParts& f) { store(f.sections[0].stored.data() + offset, value); });
 }
 
+FileBytes with_mixed_value(std::size_t field, std::uint32_t value) {
+    const FileParts parts = take_apart(good_file());
+    const auto at = std::find_if(parts.sections.begin(), parts.sections.end(),
+                                 [](const Section& s) { return s.entry.type == type_mixed; });
+    return with_value(good_file(), entry_field(std::size_t(at - parts.sections.begin()), field), value);
+}
+
 FileBytes bytes_of(std::string_view text) {
     FileBytes bytes(text.size());
     std::transform(text.begin(), text.end(), bytes.begin(), [](char c) { return std::byte(c); });
@@ -202,6 +209,38 @@ std::multimap<Issue, std::function<FileBytes()>> file_fixtures() {
              });
          }},
 
+        {Issue::wrong_required_flag, [] { return with_mixed_value(4, flag_required); }},
+        {Issue::wrong_scheme, [] { return with_mixed_value(16, 2); }},
+        {Issue::duplicate_section,
+         [] { return edited(good_file(), [](FileParts& f) { f.sections.push_back(f.find(type_mixed)); }); }},
+        {Issue::mixed_fields_not_zero, [] { return with_mixed_value(12, 1); }},
+        {Issue::mixed_fields_not_zero, [] { return with_mixed_value(12, 0x10000); }},
+        {Issue::mixed_fields_not_zero, [] { return with_mixed_value(20, 2); }},
+        {Issue::mixed_fields_not_zero, [] { return with_mixed_value(24, 5); }},
+        {Issue::mixed_fields_not_zero, [] { return with_mixed_value(28, 5); }},
+        {Issue::mixed_part_not_valid, [] { return with_mixed_value(8, 1); }},
+        {Issue::mixed_part_not_valid,
+         [] {
+             // Any size suits a lat-long map.
+             return with_part_value(104, std::uint32_t(Mapping::latlong));
+         }},
+        {Issue::wrong_mixed_length,
+         [] {
+             return edited(good_file(), [](FileParts& f) {
+                 Section& section = f.find(type_mixed);
+                 section.stored.push_back({});
+                 section.entry.raw_length = section.stored.size();
+             });
+         }},
+        {Issue::wrong_mixed_length,
+         [] {
+             return edited(good_file(), [](FileParts& f) {
+                 Section& section = f.find(type_mixed);
+                 section.stored.clear();
+                 section.entry.raw_length = 0;
+             });
+         }},
+
         {Issue::wrong_parts_length,
          [] {
              return edited(good_file(), [](FileParts& f) {
@@ -233,6 +272,11 @@ std::multimap<Issue, std::function<FileBytes()>> file_fixtures() {
         {Issue::error_figure_not_valid,
          [] { return with_part_value(148, std::numeric_limits<float>::infinity()); }},
         {Issue::part_reserved_not_zero, [] { return with_part_value(191, std::uint8_t(1)); }},
+        {Issue::part_reserved_not_zero, [] { return with_part_value(156, std::uint8_t(1)); }},
+        {Issue::part_reserved_not_zero,
+         [] { return edited(good_file(), [](FileParts& f) { f.minor = 0; }); }},
+        {Issue::unknown_part_flags, [] { return with_part_value(152, std::uint32_t(2)); }},
+        {Issue::unknown_part_flags, [] { return with_part_value(152, std::uint32_t(0x80000001)); }},
 
         {Issue::padding_not_zero,
          [] {
@@ -300,6 +344,17 @@ std::multimap<Issue, std::function<FileBytes()>> file_fixtures() {
          [] {
              return edited(good_file(), [](FileParts& f) {
                  store(f.find(type_depth).stored.data() + 2, std::uint16_t(65535));
+             });
+         }},
+        {Issue::corners_differ,
+         [] {
+             // A hole in the middle of which the bits say nothing.
+             return edited(good_file(), [](FileParts& f) {
+                 for (Section& section : f.sections)
+                     if (section.entry.type == type_depth)
+                         store(section.stored.data() + 24, std::uint16_t(0));
+                 FileBytes& bits = f.find(type_mixed).stored;
+                 std::fill(bits.begin(), bits.end(), std::byte{});
              });
          }},
 

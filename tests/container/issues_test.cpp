@@ -2,6 +2,7 @@
 // Every number is reported for its fixtures, and what is allowed is not refused.
 #include "issue_fixtures.h"
 #include "test_maps.h"
+#include "version_1_0.h"
 
 #include "../../formats/container/reader.h"
 
@@ -87,16 +88,48 @@ TEST(Sections, OrderOfImagesIsFree) {
 }
 
 TEST(Versions, NewerMinorIsReadWithWhatItReserves) {
-    FileBytes file = with_unknown_section(0xF0, 1);
+    FileBytes file = with_unknown_section(0xF0, version_minor + 1);
     EXPECT_TRUE(check(file).ok());
     EXPECT_TRUE(check(with_value(file, 30, std::uint8_t(1))).ok());
     const FileBytes reserved = edited(file, [](FileParts& f) {
         f.sections[0].stored[191] = std::byte{1};
+        f.sections[0].stored[155] = std::byte{0x80};
         f.sections[2].entry.flags |= 4U;
     });
     const Status status = check(reserved);
     EXPECT_TRUE(status.ok()) << describe(status, "file");
     EXPECT_EQ(check(with_unknown_section(flag_required, 9)).issue, Issue::unknown_required_section);
+    File opened;
+    ASSERT_TRUE(open(std::span<const std::byte>(reserved), opened).ok());
+    EXPECT_TRUE(same(opened.map(), make_map({TestPart{}}).map));
+}
+
+TEST(Versions, AFileOfVersion10IsReadAsItWas) {
+    const FileBytes file = version_1_0_file();
+    File opened;
+    const Status status = open(std::span<const std::byte>(file), opened);
+    ASSERT_TRUE(status.ok()) << describe(status, "file");
+    EXPECT_EQ(opened.version().major, 1);
+    EXPECT_EQ(opened.version().minor, 0);
+    TestMap expected = make_example();
+    expected.map.parts[0].center_inside = false;
+    EXPECT_TRUE(same(opened.map(), expected.map));
+    // What came later had no meaning then: the flags were reserved, and MIXD was any unknown section.
+    EXPECT_EQ(check(edited(file, [](FileParts& f) { f.sections[0].stored[152] = std::byte{1}; })).issue,
+              Issue::part_reserved_not_zero);
+    const auto with_section = [&](std::uint32_t flags) {
+        return edited(file, [&](FileParts& f) {
+            Section section;
+            section.entry.type = type_mixed;
+            section.entry.flags = flags;
+            section.entry.part = section.entry.width = 77;
+            section.stored.resize(5);
+            f.sections.push_back(section);
+        });
+    };
+    ASSERT_TRUE(open(std::span<const std::byte>(with_section(0)), opened).ok());
+    EXPECT_TRUE(opened.map().parts[0].mixed.empty());
+    EXPECT_EQ(check(with_section(flag_required)).issue, Issue::unknown_required_section);
 }
 
 } // namespace

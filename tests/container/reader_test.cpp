@@ -103,14 +103,17 @@ TEST(Reader, SectionsAreListed) {
     const FileBytes bytes = write(make_map({TestPart{}}).map, Compression::zstd);
     File file;
     ASSERT_TRUE(open(std::span<const std::byte>(bytes), file).ok());
-    ASSERT_EQ(file.sections().size(), 11U);
+    ASSERT_EQ(file.sections().size(), 12U);
     EXPECT_EQ(type_name(file.sections()[0].type), "PART");
     EXPECT_EQ(type_name(file.sections()[1].type), "META");
-    const SectionEntry& last = file.sections()[10];
-    EXPECT_EQ(type_name(last.type), "COLR");
-    EXPECT_EQ(last.layer, 1);
-    EXPECT_EQ(last.offset + last.stored_length, bytes.size());
-    EXPECT_EQ(last.raw_length, 9U * 9U * 4U);
+    const SectionEntry& color = file.sections()[10];
+    EXPECT_EQ(type_name(color.type), "COLR");
+    EXPECT_EQ(color.layer, 1);
+    EXPECT_EQ(color.raw_length, 9U * 9U * 4U);
+    const SectionEntry& mixed = file.sections()[11];
+    EXPECT_EQ(type_name(mixed.type), "MIXD");
+    EXPECT_EQ(mixed.raw_length, 4U * 4U / 4U);
+    EXPECT_EQ(mixed.offset + mixed.stored_length, bytes.size());
 }
 
 TEST(Reader, MessagesSayWhere) {

@@ -75,7 +75,9 @@ TEST(RoundTrip, PartsAndLayers) {
     bare.inner_colors = false;
     TestPart latlong;
     latlong.mapping = Mapping::latlong;
-    expect_round_trip(make_map({one, deep, bare, latlong}, ""));
+    TestPart unmarked;
+    unmarked.mixed = unmarked.center_inside = false;
+    expect_round_trip(make_map({one, deep, bare, latlong, unmarked}, ""));
     expect_round_trip(make_example());
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "test_maps.h"
 
+#include "../../libspa/core/cell_triangles.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -59,6 +61,29 @@ Surface make_surface(TestMap& out, const TestPart& spec, unsigned i, unsigned n,
     return surface;
 }
 
+// Triangles over the edge of a hole are mixed, and some others.
+std::span<const std::byte> add_mixed(TestMap& out, const TestPart& spec) {
+    const Grid grid{spec.mapping, spec.width, spec.height};
+    const std::uint32_t cells = spec.width - 1;
+    out.pixels.push_back(std::make_unique<std::vector<std::byte>>(std::size_t(mixed_bytes(cells))));
+    std::vector<std::byte>& bytes = *out.pixels.back();
+    const auto is_hole = [&](TexelIndex t) {
+        return shell_depth(normalize(sample_direction(grid, t)), 0, 1) == 0;
+    };
+    for (std::uint32_t y = 0; y < cells; ++y) {
+        for (std::uint32_t x = 0; x < cells; ++x) {
+            for (const unsigned triangle : {0U, 1U}) {
+                const auto [a, b, c] = triangle_corners(cells, x, y, triangle);
+                const bool pure = is_hole(a) == is_hole(b) && is_hole(a) == is_hole(c);
+                const std::uint64_t bit = triangle_bit(cells, x, y, triangle);
+                if (pure && bit % 5 != 0) continue;
+                bytes[std::size_t(bit / 8)] |= std::byte(1U << unsigned(bit % 8));
+            }
+        }
+    }
+    return bytes;
+}
+
 bool same(const ImageView& a, const ImageView& b) {
     if (a.empty() && b.empty()) return true;
     return a.width == b.width && a.height == b.height && a.format == b.format &&
@@ -72,7 +97,8 @@ bool same(const Layer& a, const Layer& b) { return same(a.outer, b.outer) && sam
 bool same(const Part& a, const Part& b) {
     using Bits = std::array<std::uint32_t, 8>;
     return a.center == b.center && a.radius == b.radius && a.frame == b.frame && a.mapping == b.mapping &&
-           a.node == b.node && a.joint == b.joint &&
+           a.node == b.node && a.joint == b.joint && a.center_inside == b.center_inside &&
+           std::equal(a.mixed.begin(), a.mixed.end(), b.mixed.begin(), b.mixed.end()) &&
            std::bit_cast<Bits>(a.errors) == std::bit_cast<Bits>(b.errors) &&
            std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
                       [](const Layer& x, const Layer& y) { return same(x, y); });
@@ -92,6 +118,7 @@ TestMap make_map(const std::vector<TestPart>& parts, const std::string& metadata
         part.mapping = spec.mapping;
         part.node = std::int32_t(p) - 1;
         part.joint = p == 0 ? -1 : 7;
+        part.center_inside = spec.center_inside;
         part.errors.texel_distance_max = 0.125F;
         part.errors.captured_area = 1;
         const unsigned n = 2 * spec.layers;
@@ -102,6 +129,7 @@ TestMap make_map(const std::vector<TestPart>& parts, const std::string& metadata
                 layer.inner = make_surface(out, spec, 2 * k + 1, n, spec.inner_colors);
             part.layers.push_back(layer);
         }
+        if (spec.mixed && spec.mapping == Mapping::octahedral) part.mixed = add_mixed(out, spec);
         out.map.parts.push_back(part);
     }
     return out;
@@ -113,6 +141,7 @@ TestMap make_example() {
     Part part;
     part.center = {0, 1, 0};
     part.radius = 2;
+    part.center_inside = true;
     Surface surface;
     surface.depth =
         add_image(out, grid, ElementFormat::u8, [](Vec3d, std::byte* at) { *at = std::byte{255}; });

@@ -25,13 +25,15 @@ struct TestPart {
     // The surface of the last layer reaches the centre: no inner images.
     bool solid_core = true;
     bool inner_colors = true;
+    bool center_inside = true;
+    bool mixed = true; // octahedral: which triangles are mixed is stored
 };
 
 // Concentric bumpy shells with holes, so that all depths differ, obey the rules of layers, and some are 0.
 TestMap make_map(const std::vector<TestPart>& parts,
                  const std::string& metadata = "{\"generator\":\"test\"}");
 
-// The example of formats/SPA.md, section 13.
+// The example of formats/SPA.md, section 14.
 TestMap make_example();
 
 // Whether two maps are the same: every field and every byte of every image (NaN equals NaN).

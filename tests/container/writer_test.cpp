@@ -69,7 +69,13 @@ TEST(Writer, RefusesMapsThatBreakTheRules) {
                   std::swap(m.parts[0].layers[0].outer.depth, m.parts[0].layers[0].inner.depth);
               }).issue,
               Issue::interval_inside_out);
+    EXPECT_EQ(
+        status_of([](SphericalMap& m, TestMap&) { m.parts[0].mixed = m.parts[0].mixed.first(3); }).issue,
+        Issue::wrong_mixed_length);
     EXPECT_EQ(status_of([](SphericalMap& m, TestMap&) { m.metadata = "{"; }).issue, Issue::metadata_not_json);
+    TestMap holes = make_map({TestPart{.width = 17, .height = 17}});
+    std::fill(holes.pixels.back()->begin(), holes.pixels.back()->end(), std::byte{});
+    EXPECT_EQ(write_bytes(holes.map).issue, Issue::corners_differ);
     const Status status = status_of([](SphericalMap&, TestMap& t) {
         (*t.pixels[0])[3] ^= std::byte{1}; // depth of layer 0 on the upper border
     });

@@ -6,6 +6,7 @@
 #include "../../formats/container/little_endian.h"
 #include "../../formats/container/reader.h"
 #include "../../formats/container/writer.h"
+#include "../../libspa/core/cell_triangles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,11 @@ double touch(const SphericalMap& map) {
             for (const Surface* surface : {&layer.outer, &layer.inner})
                 sum += touch(surface->depth) + touch(surface->normal) + touch(surface->color);
         }
+        const std::uint32_t cells = part.layers.front().outer.depth.width - 1;
+        require(part.mixed.empty() ||
+                    (part.mapping == Mapping::octahedral && part.mixed.size() == mixed_bytes(cells)),
+                "wrong number of mixed triangles");
+        sum += mixed_share(part.mixed);
     }
     return sum;
 }

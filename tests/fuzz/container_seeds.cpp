@@ -2,6 +2,7 @@
 // container_seeds FOLDER: writes the seed corpus, one small valid file of each kind.
 #include "../container/file_parts.h"
 #include "../container/test_maps.h"
+#include "../container/version_1_0.h"
 
 #include <fstream>
 
@@ -22,7 +23,7 @@ FileBytes with_unknown_section(const FileBytes& file) {
     section.entry.type = container::section_type("FOLD");
     section.stored.resize(5);
     parts.sections.push_back(section);
-    parts.minor = 1;
+    parts.minor = container::version_minor + 1;
     return put_together(parts);
 }
 
@@ -48,6 +49,7 @@ int main(int argc, char** argv) {
     const FileBytes plain = write(map.map);
     const bool done = save(folder + "example.spa", write(make_example().map)) &&
                       save(folder + "plain.spa", plain) &&
+                      save(folder + "version_1_0.spa", version_1_0_file()) &&
                       save(folder + "unknown.spa", with_unknown_section(plain)) &&
                       save(folder + "zstd.spa", write(large.map, container::Compression::zstd));
     return done ? 0 : 2;

@@ -5,6 +5,7 @@
 
 #include "../../formats/container/reader.h"
 #include "../../formats/container/writer.h"
+#include "../../libspa/core/cell_triangles.h"
 
 #include <cmath>
 #include <cstdio>
@@ -50,14 +51,31 @@ void print_image(const Part& part, const char* type, const std::string& place, c
         for (std::uint32_t x = 0; x < image.width; ++x) print_element(part, type, image, x, y);
 }
 
+// One line a triangle, with the directions of its corners.
+void print_mixed(const Part& part, std::size_t index) {
+    const ImageView& depth = part.layers[0].outer.depth;
+    const std::uint32_t cells = depth.width - 1;
+    std::printf("mixed %zu %u\n", index, cells);
+    for (std::uint32_t y = 0; y < cells; ++y) {
+        for (std::uint32_t x = 0; x < cells; ++x) {
+            for (const unsigned triangle : {0U, 1U}) {
+                std::printf("%d", int(is_mixed(part.mixed, triangle_bit(cells, x, y, triangle))));
+                for (const TexelIndex corner : triangle_corners(cells, x, y, triangle))
+                    print(normalize(sample_direction({part.mapping, depth.width, depth.height}, corner)));
+                std::printf("\n");
+            }
+        }
+    }
+}
+
 void print_map(const SphericalMap& map) {
     std::printf("metadata ");
     for (const char c : map.metadata) std::printf("%02x", unsigned(std::uint8_t(c)));
     std::printf("\n");
     for (std::size_t i = 0; i < map.parts.size(); ++i) {
         const Part& part = map.parts[i];
-        std::printf("part %zu %u %zu %d %d", i, unsigned(part.mapping), part.layers.size(), part.node,
-                    part.joint);
+        std::printf("part %zu %u %zu %d %d %d", i, unsigned(part.mapping), part.layers.size(), part.node,
+                    part.joint, int(part.center_inside));
         print(part.center);
         print(part.radius);
         for (const Vec3d& row : part.frame.row) print(row);
@@ -77,6 +95,7 @@ void print_map(const SphericalMap& map) {
                 print_image(part, "COLR", place, surface.color);
             }
         }
+        if (!part.mixed.empty()) print_mixed(part, i);
     }
 }
 
@@ -90,6 +109,8 @@ int write_files(const std::string& folder) {
     bytes.depth = u8;
     bytes.normal = oct8;
     bytes.solid_core = false;
+    bytes.center_inside = false;
+    bytes.width = bytes.height = 7; // rows of triangles that do not fill whole bytes
     const test::TestMap map =
         test::make_map({test::TestPart{}, latlong, bytes}, "{\"name\":\"\\u00e9 \xC3\xA9\"}");
     for (const auto& [compression, name] : {std::pair(container::Compression::none, "/none.spa"),

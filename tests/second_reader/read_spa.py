@@ -210,7 +210,7 @@ def decompress(data):
     return done.stdout
 
 
-# The file (sections 1 to 5), read as section 10 says.
+# The file (sections 1 to 5), read as section 11 says.
 
 
 class Entry:
@@ -223,7 +223,7 @@ class Entry:
 
 
 class Part:
-    def __init__(self, data):
+    def __init__(self, data, minor):
         numbers = struct.unpack_from("<13d", data, 0)
         self.center, self.radius, self.frame = numbers[:3], numbers[3], numbers[4:]
         self.mapping, self.layers, self.node, self.joint = struct.unpack_from("<IIii", data, 104)
@@ -231,7 +231,11 @@ class Part:
         require(all(abs(v) <= 2.0**60 for v in numbers) and self.radius >= 2.0**-60, 302)
         require(self.mapping in (1, 2), 304)
         require(1 <= self.layers <= 65535, 305)
-        require(not any(data[152:192]), 308)
+        flags = u32(data, 152)
+        require(minor > 0 or flags == 0, 308)
+        require(minor > 1 or flags & ~1 == 0, 309)
+        require(minor > 1 or not any(data[156:192]), 308)
+        self.center_inside = flags & 1
 
 
 def read(data):
@@ -245,7 +249,7 @@ def read(data):
     end = 64 + 64 * count
     require(end <= length, 107)
     require(xxh3(data[:56] + bytes(8) + data[64:end]) == u64(data, 56), 108)
-    require(minor > 0 or not any(data[28:56]), 109)
+    require(minor > 1 or not any(data[28:56]), 109)
     entries = [Entry(data[64 + 64 * i : 128 + 64 * i]) for i in range(count)]
     require(count > 0 and entries[0].type == b"PART", 213)
 
@@ -258,7 +262,7 @@ def read(data):
         require(end <= length, 207)
         stored = data[start:end]
         require(xxh3(stored) == entry.checksum, 402)
-        if entry.type not in (b"PART", b"META", b"DPTH", b"NRML", b"COLR"):
+        if entry.type not in (b"PART", b"META", b"DPTH", b"NRML", b"COLR") + ((b"MIXD",) if minor > 0 else ()):
             require(not entry.flags & 1, 201, repr(entry.type))
             continue
         require(entry.scheme in (0, 1, 2), 209)
@@ -266,9 +270,12 @@ def read(data):
         require(len(raw) == entry.raw, 404 if entry.scheme else 211)
         if entry.type == b"PART":
             require(raw and len(raw) % 192 == 0, 301)
-            parts = [Part(raw[192 * i : 192 * (i + 1)]) for i in range(len(raw) // 192)]
+            parts = [Part(raw[192 * i : 192 * (i + 1)], minor) for i in range(len(raw) // 192)]
         elif entry.type == b"META":
             metadata = raw
+        elif entry.type == b"MIXD":
+            require(not (entry.layer or entry.side or entry.format or entry.width or entry.height), 222)
+            images[entry.part, 0, 0, entry.type] = (entry, raw)
         else:
             name, kind, components, size = FORMATS[entry.format]
             require(kind == entry.type, 217)
@@ -277,6 +284,8 @@ def read(data):
                 raw = unfilter(raw, entry.width, entry.height, components, size)
             images[entry.part, entry.layer, entry.side, entry.type] = (entry, raw)
     require(end == length, 208)
+    for part, _, _, kind in images:
+        require(kind != b"MIXD" or (part < len(parts) and parts[part].mapping == 2), 223)
     return parts, images, metadata
 
 
@@ -297,6 +306,33 @@ def to_object_space(part, q):
     return tuple(part.center[i] + sum(part.frame[3 * i + k] * q[k] for k in range(3)) for i in range(3))
 
 
+def mixed_triangles(part, images, index):
+    """Lines for the triangles of a part, if it says which are mixed (section 9)."""
+    if (index, 0, 0, b"MIXD") not in images:
+        return
+    raw = images[index, 0, 0, b"MIXD"][1]
+    depth = images[index, 0, 0, b"DPTH"][0]
+    n = depth.width - 1
+    require(len(raw) == n * n // 4, 224)
+    present = []  # for each depth image, whether there is a surface
+    for (owner, _, _, kind), (entry, codes) in images.items():
+        if owner == index and kind == b"DPTH":
+            size = FORMATS[entry.format][3]
+            present.append([any(codes[size * i : size * (i + 1)]) for i in range((n + 1) * (n + 1))])
+    yield f"mixed {index} {n}"
+    for y in range(n):
+        for x in range(n):
+            xn, xf = (x + 1, x) if x < n / 2 else (x, x + 1)
+            yn, yf = (y + 1, y) if y < n / 2 else (y, y + 1)
+            for f, corners in enumerate([((xn, yn), (xn, yf), (xf, yn)), ((xf, yf), (xn, yf), (xf, yn))]):
+                i = 2 * (y * n + x) + f
+                mixed = raw[i // 8] >> i % 8 & 1
+                for surface in present:
+                    require(mixed or len({surface[cy * (n + 1) + cx] for cx, cy in corners}) == 1, 506)
+                u = [c for cx, cy in corners for c in direction(part.mapping, cx, cy, n + 1, n + 1)]
+                yield f"{mixed} " + " ".join(map(number, u))
+
+
 def number(value):
     return "nan" if value != value else f"{value:.9g}"
 
@@ -306,7 +342,7 @@ def lines(data):
     yield "metadata " + metadata.hex()
     for index, part in enumerate(parts):
         fields = part.center + (part.radius,) + part.frame + part.errors
-        yield f"part {index} {part.mapping} {part.layers} {part.node} {part.joint} " + " ".join(map(number, fields))
+        yield f"part {index} {part.mapping} {part.layers} {part.node} {part.joint} {part.center_inside} " + " ".join(map(number, fields))
         for layer in range(part.layers):
             for side in (0, 1):
                 for kind in (b"DPTH", b"NRML", b"COLR"):
@@ -324,6 +360,7 @@ def lines(data):
                             q = tuple(values[0] * part.radius * c for c in u)
                             values = values + u + to_object_space(part, q)
                         yield " ".join(map(number, values))
+        yield from mixed_triangles(part, images, index)
 
 
 def equal(a, b):
