@@ -39,12 +39,10 @@ struct Report {
     std::uint64_t thin_samples = 0;        // with a surface that bounds no solid, stored as a thin shell
     std::uint64_t truncated_samples = 0;   // with more intervals than layers
     bool center_on_surface = false;        // the centre is closer to the surface than 1e-4 R
-    bool center_inside = false;      // the centre is in the solid (intervals.h, solid_winding); with one
-                                     // layer not asked
-    double center_moved = 0;         // how far it was moved off the surface, in units of R
-    std::vector<LayerReport> layers; // as written
-    std::optional<double> mixed_triangles; // share of the triangles between samples that must not be
-                                           // interpolated over (mixed.h); none for latlong
+    bool center_inside = false;            // the centre is in the solid (intervals.h); one layer: not asked
+    double center_moved = 0;               // how far it was moved off the surface, in units of R
+    std::vector<LayerReport> layers;       // as written
+    std::optional<double> mixed_triangles; // share of the map's triangles (mixed.h); none for latlong
     std::vector<std::string> warnings;     // full sentences
     std::string gl;                        // orbit: GlContext::description()
     double seconds = 0;                    // wall clock; never goes into a file
