@@ -5,7 +5,9 @@
 //   nodes      bounds of the surface, a pyramid over each quadrant of the octahedral map (spa_projective.h)
 //   samples    W of every sample and surface: 1/|q|_1 of the stored point q (map space); SPA_FAR = none;
 //              as an inner end: the centre is reached. Plane by plane: outer 0, inner 0, outer 1, ...
-//   cells      one word a cell and quadrant: 0 = both triangles are pure, else where its lists of prisms are
+//   cells      one word a cell, as the nodes' last level: 0 = both triangles are pure, else where its two
+//   lists of
+//              prisms are
 //   prisms     what stands in mixed triangles
 //   depths     r/R of the outermost surface, one float a sample: what fan and march read
 //   images     colours and normals of every surface
@@ -31,18 +33,17 @@ SPA_BEGIN
 #define SPA_HEADER_LEVELS 8u    // octahedral: a quadrant has 2^levels x 2^levels cells, padding included
 #define SPA_HEADER_CODE_BASE 9u // a node's code c stands for the float of pattern base + (c << shift)
 #define SPA_HEADER_CODE_SHIFT 10u
-#define SPA_HEADER_W_MAX 11u  // float: no finite W of samples and prisms is greater
-#define SPA_HEADER_W_CORE 12u // float: rays are not followed beyond this W
-#define SPA_HEADER_NODES 13u
-#define SPA_HEADER_SAMPLES 14u
-#define SPA_HEADER_CELLS 15u // 0: there are no mixed triangles
-#define SPA_HEADER_PRISMS 16u
-#define SPA_HEADER_DEPTHS 17u
-#define SPA_HEADER_IMAGES 18u // SPA_IMAGE_WORDS words a surface
+#define SPA_HEADER_W_CORE 11u // float: rays are not followed beyond this W
+#define SPA_HEADER_NODES 12u
+#define SPA_HEADER_SAMPLES 13u
+#define SPA_HEADER_CELLS 14u // 0: there are no mixed triangles
+#define SPA_HEADER_PRISMS 15u
+#define SPA_HEADER_DEPTHS 16u
+#define SPA_HEADER_IMAGES 17u // SPA_IMAGE_WORDS words a surface
 
-#define SPA_HEADER_BOX 20u // floats: the box around the stored surface, lowest x, y, z, highest x, y, z
+#define SPA_HEADER_BOX 18u // 6 floats: the box around the stored surface, lowest x, y, z, highest x, y, z
 
-#define SPA_HEADER_WORDS 26u
+#define SPA_HEADER_WORDS 24u
 #define SPA_MAGIC 0x54415053u // "SPAT"
 
 #define SPA_LATLONG 1u
@@ -97,7 +98,6 @@ struct SpaMap {
     uint levels;
     uint code_base;
     uint code_shift;
-    float w_max;
     float w_core;
     uint nodes;
     uint samples;
@@ -121,7 +121,6 @@ SPA_FUNCTION SpaMap spa_open(SpaWords words) {
     map.levels = spa_load(words, SPA_HEADER_LEVELS);
     map.code_base = spa_load(words, SPA_HEADER_CODE_BASE);
     map.code_shift = spa_load(words, SPA_HEADER_CODE_SHIFT);
-    map.w_max = spa_float(spa_load(words, SPA_HEADER_W_MAX));
     map.w_core = spa_float(spa_load(words, SPA_HEADER_W_CORE));
     map.nodes = spa_load(words, SPA_HEADER_NODES);
     map.samples = spa_load(words, SPA_HEADER_SAMPLES);

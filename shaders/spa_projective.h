@@ -19,8 +19,11 @@ SPA_BEGIN
 // is near.
 #define SPA_START_BITS 4u
 #define SPA_TOP_BITS 2u
-// Later than any sigma.
+// Before and after any time.
 #define SPA_NEVER 1e20f
+// Borders of nodes are passed this much later than they lie, relative to the stretch: more than rounding
+// takes off, so that no stretch is left before its end.
+#define SPA_LATER 1.0000004f
 
 // The float of a node's code: no less than what was encoded as a lower end, no more as an upper end,
 // reversed.
@@ -32,24 +35,26 @@ SPA_FUNCTION bool spa_meets(SpaMap map, uint range, float low, float high) {
     return high >= spa_decode(map, range & 0xFFFFu) && low <= spa_decode(map, range >> 16u);
 }
 
-// The place of (x, y) among the nodes (or cells) of a level with 2^bits a side: the coarsest level comes
-// first, in a level quadrant by quadrant, row by row.
-SPA_FUNCTION uint spa_node(uint bits, uint quadrant, uint x, uint y) {
-    uint before = 0x55555554u & ((1u << (2u * bits + 1u) << 1u) - 1u); // 4 (4^bits - 1)/3
-    return before + (quadrant << (2u * bits)) + (y << bits) + x;
+// The place of (x, y), counted on the whole map (SpaStretch), among the nodes of a level with 2^bits a side
+// of a quadrant: the coarsest level comes first, in a level row by row.
+SPA_FUNCTION uint spa_node(uint bits, uint x, uint y) {
+    uint before = 0x55555554u & ~(0xFFFFFFFCu << (2u * bits)); // 4 (4^bits - 1)/3
+    return before + (y << (bits + 1u)) + x;
 }
 
-SPA_FUNCTION SpaTriangle spa_triangle(SpaMap map, uint quadrant, uint x, uint y, uint beyond) {
+// x and y: a cell on the whole map.
+SPA_FUNCTION SpaTriangle spa_triangle(SpaMap map, uint x, uint y, uint beyond) {
     SpaTriangle tri;
-    uint half_cells = (map.width - 1u) / 2u;
-    tri.step_x = (quadrant & 1u) == 0u ? 1u : 0xFFFFFFFFu;
-    tri.step_y = (quadrant & 2u) == 0u ? 0u - map.width : map.width;
-    tri.corner = half_cells * map.width + half_cells + x * tri.step_x + y * tri.step_y;
+    uint middle = (map.width - 1u) / 2u;
+    uint low_bits = (1u << map.levels) - 1u;
+    tri.step_x = x <= low_bits ? 1u : 0xFFFFFFFFu;
+    tri.step_y = y <= low_bits ? 0u - map.width : map.width;
+    tri.corner = middle * map.width + middle + (x & low_bits) * tri.step_x + (y & low_bits) * tri.step_y;
     tri.beyond = beyond;
     tri.prisms = SPA_PURE;
     tri.first = 0u;
     if (map.cells != 0u) {
-        uint lists = spa_load(map.words, map.cells + (quadrant << (2u * map.levels)) + (y << map.levels) + x);
+        uint lists = spa_load(map.words, map.cells + (y << (map.levels + 1u)) + x);
         if (lists != 0u) {
             tri.first = spa_load(map.words, lists + 2u * beyond);
             tri.prisms = spa_load(map.words, lists + 2u * beyond + 1u);
@@ -57,6 +62,9 @@ SPA_FUNCTION SpaTriangle spa_triangle(SpaMap map, uint quadrant, uint x, uint y,
     }
     return tri;
 }
+
+// Whether a coordinate is turned.
+SPA_FUNCTION bool spa_turned(uint flip) { return (flip & 1u) != 0u; }
 
 // The ray from sigma s0 to s1 in the cell (x, y), places turned as in the stretch. True: `event`, in `piece`
 // and `tri`, is to be reported.
@@ -67,11 +75,11 @@ SPA_FUNCTION bool spa_cross_cell(SpaMap map, SpaStretch stretch, uint x, uint y,
     float v0 = stretch.y0 + s0 * stretch.dy - float(y);
     float u1 = stretch.x0 + s1 * stretch.dx - float(x);
     float v1 = stretch.y0 + s1 * stretch.dy - float(y);
-    if (stretch.flip_x != 0u) {
+    if (spa_turned(stretch.flip_x)) {
         u0 = 1.0f - u0;
         u1 = 1.0f - u1;
     }
-    if (stretch.flip_y != 0u) {
+    if (spa_turned(stretch.flip_y)) {
         v0 = 1.0f - v0;
         v1 = 1.0f - v1;
     }
@@ -96,8 +104,7 @@ SPA_FUNCTION bool spa_cross_cell(SpaMap map, SpaStretch stretch, uint x, uint y,
         piece.u1 = n == 0u ? um : u1;
         piece.v1 = n == 0u ? vm : v1;
         piece.w1 = n == 0u ? wm : w1;
-        tri = spa_triangle(map, stretch.quadrant, x ^ stretch.flip_x, y ^ stretch.flip_y,
-                           n == 0u ? beyond : 1u - beyond);
+        tri = spa_triangle(map, x ^ stretch.flip_x, y ^ stretch.flip_y, n == 0u ? beyond : 1u - beyond);
         if (spa_cross(map, tri, piece, flags, state, event)) return true;
         if (!two) return false;
     }
@@ -137,8 +144,9 @@ SPA_FUNCTION float spa_plane_at(SpaMap map, SpaStretch stretch, float3 foot, flo
 // Fills the record of an event.
 SPA_FUNCTION SpaHit spa_finish(SpaMap map, SpaRay ray, SpaChord chord, SpaStretch stretch, SpaEvent event,
                                SpaPiece piece, SpaTriangle tri, uint x, uint y) {
-    uint real_x = x ^ stretch.flip_x;
-    uint real_y = y ^ stretch.flip_y;
+    uint low_bits = (1u << map.levels) - 1u;
+    uint real_x = (x ^ stretch.flip_x) & low_bits;
+    uint real_y = (y ^ stretch.flip_y) & low_bits;
     bool surface = event.by == SPA_BY_OUTER || event.by == SPA_BY_INNER;
     float t = spa_time(stretch, event.s);
     if (surface) {
@@ -156,8 +164,8 @@ SPA_FUNCTION SpaHit spa_finish(SpaMap map, SpaRay ray, SpaChord chord, SpaStretc
     float px = stretch.x0 + event.s * stretch.dx;
     float py = stretch.y0 + event.s * stretch.dy;
     float side = float(1u << map.levels);
-    if (stretch.flip_x != 0u) px = side - px;
-    if (stretch.flip_y != 0u) py = side - py;
+    if (spa_turned(stretch.flip_x)) px = side - px;
+    if (spa_turned(stretch.flip_y)) py = side - py;
     float cells = float(map.width - 1u);
     SpaHit hit;
     hit.t = min(max(t + chord.foot_t, ray.t_min), ray.t_max);
@@ -184,34 +192,30 @@ SPA_FUNCTION bool spa_walk(SpaMap map, SpaStretch stretch, uint flags, SPA_INOUT
     uint top = map.levels > SPA_TOP_BITS ? map.levels - SPA_TOP_BITS : 0u;
     uint words = (map.flags & SPA_MAP_TWO_RANGES) != 0u ? 2u : 1u;
     uint level = map.levels > SPA_START_BITS ? map.levels - SPA_START_BITS : 0u;
-    bool go_x = stretch.dx > 0.0f;
-    bool go_y = stretch.dy > 0.0f;
-    float per_x = go_x ? 1.0f / max(stretch.dx, 1e-20f) : 0.0f;
-    float per_y = go_y ? 1.0f / max(stretch.dy, 1e-20f) : 0.0f;
-    uint end_x = uint(stretch.end_x);
-    uint end_y = uint(stretch.end_y);
-    uint x = min(uint(stretch.x0), end_x - 1u);
-    uint y = min(uint(stretch.y0), end_y - 1u);
+    float per_x = SPA_LATER / max(stretch.dx, 1e-20f);
+    float per_y = SPA_LATER / max(stretch.dy, 1e-20f);
+    uint last = (1u << map.levels) - 1u;
+    uint x = uint(stretch.x0);
+    uint y = uint(stretch.y0);
     float s = 0.0f;
     // x + y grows with every step that does not go down.
-    uint bound = (end_x + end_y + 2u) * (top + 2u);
+    uint bound = 2u * (last + 2u) * (top + 2u);
     for (uint step = 0u; step < bound; step += 1u) {
         // In the solid the nodes say nothing about where it ends.
         if (state != SPA_OUTSIDE) level = 0u;
         uint next_x = ((x >> level) + 1u) << level;
         uint next_y = ((y >> level) + 1u) << level;
-        float exit_x = go_x && next_x < end_x ? (float(next_x) - stretch.x0) * per_x : SPA_NEVER;
-        float exit_y = go_y && next_y < end_y ? (float(next_y) - stretch.y0) * per_y : SPA_NEVER;
+        float exit_x = (float(next_x) - stretch.x0) * per_x;
+        float exit_y = (float(next_y) - stretch.y0) * per_y;
         float s1 = max(min(min(exit_x, exit_y), 1.0f), s);
-        float wa = min(stretch.w0 + s * stretch.dw, map.w_max);
-        float wb = min(stretch.w0 + s1 * stretch.dw, map.w_max);
+        float wa = stretch.w0 + s * stretch.dw;
+        float wb = stretch.w0 + s1 * stretch.dw;
         float low = min(wa, wb);
         float high = max(wa, wb);
         bool meets = state != SPA_OUTSIDE;
         if (!meets) {
-            uint node =
-                map.nodes + words * spa_node(map.levels - level, stretch.quadrant,
-                                             (x ^ stretch.flip_x) >> level, (y ^ stretch.flip_y) >> level);
+            uint node = map.nodes + words * spa_node(map.levels - level, (x ^ stretch.flip_x) >> level,
+                                                     (y ^ stretch.flip_y) >> level);
             meets = spa_meets(map, spa_load(map.words, node), low, high);
             if (!meets && words == 2u) meets = spa_meets(map, spa_load(map.words, node + 1u), low, high);
         }
@@ -239,8 +243,8 @@ SPA_FUNCTION bool spa_walk(SpaMap map, SpaStretch stretch, uint flags, SPA_INOUT
                 x = max(x, min(uint(max(stretch.x0 + s1 * stretch.dx, 0.0f)), next_x - 1u));
                 climb = ((y >> level) & 1u) == 0u;
             }
-            y = min(y, end_y - 1u);
-            x = min(x, end_x - 1u);
+            y = min(y, last);
+            x = min(x, last);
             s = s1;
             if (climb) level = min(level + 1u, top);
         }
@@ -250,25 +254,25 @@ SPA_FUNCTION bool spa_walk(SpaMap map, SpaStretch stretch, uint flags, SPA_INOUT
 
 // When the ray enters and leaves the box in one coordinate: before anything and after everything if it never
 // does.
-SPA_FUNCTION float spa_enters(float position, float direction, float low, float high) {
-    if (direction == 0.0f) return -SPA_NEVER;
-    return ((direction > 0.0f ? low : high) - position) / direction;
+SPA_FUNCTION float spa_enters(float position, float direction, float per, float low, float high) {
+    if (abs(direction) < SPA_TINY) return -SPA_NEVER;
+    return ((direction > 0.0f ? low : high) - position) * per;
 }
-SPA_FUNCTION float spa_leaves(float position, float direction, float low, float high) {
-    if (direction == 0.0f) return SPA_NEVER;
-    return ((direction > 0.0f ? high : low) - position) / direction;
+SPA_FUNCTION float spa_leaves(float position, float direction, float per, float low, float high) {
+    if (abs(direction) < SPA_TINY) return SPA_NEVER;
+    return ((direction > 0.0f ? high : low) - position) * per;
 }
 
 // Keeps of a chord what lies in the box around the surface. False: nothing does.
-SPA_FUNCTION bool spa_in_box(SpaMap map, float3 direction, SPA_INOUT(SpaChord) chord) {
+SPA_FUNCTION bool spa_in_box(SpaMap map, float3 direction, float3 per, SPA_INOUT(SpaChord) chord) {
     float3 low = map.box_low;
     float3 high = map.box_high;
-    float enters = max(spa_enters(chord.foot.x, direction.x, low.x, high.x),
-                       max(spa_enters(chord.foot.y, direction.y, low.y, high.y),
-                           spa_enters(chord.foot.z, direction.z, low.z, high.z)));
-    float leaves = min(spa_leaves(chord.foot.x, direction.x, low.x, high.x),
-                       min(spa_leaves(chord.foot.y, direction.y, low.y, high.y),
-                           spa_leaves(chord.foot.z, direction.z, low.z, high.z)));
+    float enters = max(spa_enters(chord.foot.x, direction.x, per.x, low.x, high.x),
+                       max(spa_enters(chord.foot.y, direction.y, per.y, low.y, high.y),
+                           spa_enters(chord.foot.z, direction.z, per.z, low.z, high.z)));
+    float leaves = min(spa_leaves(chord.foot.x, direction.x, per.x, low.x, high.x),
+                       min(spa_leaves(chord.foot.y, direction.y, per.y, low.y, high.y),
+                           spa_leaves(chord.foot.z, direction.z, per.z, low.z, high.z)));
     chord.starts_inside_sphere = chord.starts_inside_sphere && chord.t0 > enters;
     chord.t0 = max(chord.t0, enters);
     chord.t1 = min(chord.t1, leaves);
@@ -281,10 +285,12 @@ SPA_FUNCTION bool spa_trace_projective(SpaMap map, SpaRay ray, uint flags, SPA_O
     if (map.mapping != SPA_OCTAHEDRAL) return false;
     if (!(ray.t_min <= ray.t_max)) return false;
     SpaChord chord;
-    if (!spa_chord(ray, map.radius, chord) || !spa_in_box(map, ray.direction, chord)) return false;
-    float3 crossings = float3(spa_crossing(chord.foot.x, ray.direction.x, chord.t0, chord.t1),
-                              spa_crossing(chord.foot.y, ray.direction.y, chord.t0, chord.t1),
-                              spa_crossing(chord.foot.z, ray.direction.z, chord.t0, chord.t1));
+    if (!spa_chord(ray, map.radius, chord)) return false;
+    float3 per = float3(1.0f / ray.direction.x, 1.0f / ray.direction.y, 1.0f / ray.direction.z);
+    if (!spa_in_box(map, ray.direction, per, chord)) return false;
+    float3 crossings = float3(spa_crossing(chord.foot.x, ray.direction.x, per.x, chord.t0, chord.t1),
+                              spa_crossing(chord.foot.y, ray.direction.y, per.y, chord.t0, chord.t1),
+                              spa_crossing(chord.foot.z, ray.direction.z, per.z, chord.t0, chord.t1));
     float low = min(crossings.x, crossings.y);
     float high = max(crossings.x, crossings.y);
     float first = min(low, crossings.z);
@@ -308,7 +314,7 @@ SPA_FUNCTION bool spa_trace_projective(SpaMap map, SpaRay ray, uint flags, SPA_O
     piece.u1 = 0.0f;
     piece.v1 = 0.0f;
     piece.w1 = 0.0f;
-    SpaTriangle tri = spa_triangle(map, 0u, 0u, 0u, 0u);
+    SpaTriangle tri = spa_triangle(map, 0u, 0u, 0u);
     SpaWalk walk;
     walk.x = 0u;
     walk.y = 0u;

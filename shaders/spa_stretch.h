@@ -14,9 +14,10 @@
 SPA_BEGIN
 
 // x and y count cells from the map's middle, in one quadrant. Traversal goes along axes turned so that they
-// do not fall: flip_x is 2^levels - 1 where x is turned (x = 2^levels - place), else 0; so is flip_y.
+// do not fall: a turned x is 2^levels - x. Of turned cells, x ^ flip_x is the place on the whole map: in the
+// low `levels` bits the cell counted from the middle, in the next one the side of the middle (1: negative x).
 struct SpaStretch {
-    float x0; // turned, at sigma = 0
+    float x0; // turned, at sigma = 0; below 2^levels
     float y0;
     float w0;
     float dx; // over the whole stretch; dx, dy >= 0
@@ -24,26 +25,29 @@ struct SpaStretch {
     float dw;
     uint flip_x;
     uint flip_y;
-    float end_x; // the quadrant's border in turned x: never crossed
-    float end_y;
-    uint quadrant; // bit 0: x < 0, bit 1: y < 0
     float3 signs;
     float ta; // of the chord, at sigma = 0 and 1
     float tb;
 };
 
+// Smaller parts of a direction count as zero.
+#define SPA_TINY 1e-30f
+// The greatest float below 1.
+#define SPA_BELOW_ONE 0.99999994f
+
 // -1 or 1: the side of a coordinate plane on which the ray is at time `at`, if it crosses the plane at
 // `crossing`.
 SPA_FUNCTION float spa_sign(float position, float direction, float crossing, float at) {
-    if (direction == 0.0f) return position < 0.0f ? -1.0f : 1.0f;
+    if (abs(direction) < SPA_TINY) return position < 0.0f ? -1.0f : 1.0f;
     float before = direction > 0.0f ? -1.0f : 1.0f;
     return at < crossing ? before : -before;
 }
 
 // When the ray crosses a coordinate plane, within the chord: clamped before anything sorts or subtracts it.
-SPA_FUNCTION float spa_crossing(float position, float direction, float t0, float t1) {
-    if (direction == 0.0f) return t1;
-    return min(max(-position / direction, t0), t1);
+// per: 1 / direction.
+SPA_FUNCTION float spa_crossing(float position, float direction, float per, float t0, float t1) {
+    if (abs(direction) < SPA_TINY) return t1;
+    return min(max(-position * per, t0), t1);
 }
 
 // Between the times ta < tb, which lie in one octant. False: the stretch lies in the core and is left out.
@@ -65,7 +69,6 @@ SPA_FUNCTION bool spa_stretch(SpaMap map, float3 foot, float3 direction, float3 
     float la = a.x + a.y + a.z;
     float lb = b.x + b.y + b.z;
     stretch.signs = float3(sx, sy, sz);
-    stretch.quadrant = (sx < 0.0f ? 1u : 0u) | (sy < 0.0f ? 2u : 0u);
     float core = 1.0f / map.w_core;
     float fa = 0.0f;
     float fb = 1.0f;
@@ -90,20 +93,20 @@ SPA_FUNCTION bool spa_stretch(SpaMap map, float3 foot, float3 direction, float3 
     float ya = (lower ? a.y + a.z : a.y) * wa;
     float xb = (lower ? b.x + b.z : b.x) * wb;
     float yb = (lower ? b.y + b.z : b.y) * wb;
-    xa = min(xa, 1.0f) * half_cells;
-    ya = min(ya, 1.0f) * half_cells;
-    xb = min(xb, 1.0f) * half_cells;
-    yb = min(yb, 1.0f) * half_cells;
+    xa = min(xa, SPA_BELOW_ONE) * half_cells;
+    ya = min(ya, SPA_BELOW_ONE) * half_cells;
+    xb = min(xb, SPA_BELOW_ONE) * half_cells;
+    yb = min(yb, SPA_BELOW_ONE) * half_cells;
     bool turn_x = xb < xa;
     bool turn_y = yb < ya;
-    stretch.flip_x = turn_x ? (1u << map.levels) - 1u : 0u;
-    stretch.flip_y = turn_y ? (1u << map.levels) - 1u : 0u;
-    stretch.end_x = turn_x ? side : half_cells;
-    stretch.end_y = turn_y ? side : half_cells;
-    stretch.x0 = turn_x ? side - xa : xa;
-    stretch.y0 = turn_y ? side - ya : ya;
-    stretch.dx = (turn_x ? side - xb : xb) - stretch.x0;
-    stretch.dy = (turn_y ? side - yb : yb) - stretch.y0;
+    uint low_bits = (1u << map.levels) - 1u;
+    stretch.flip_x = (turn_x ? low_bits : 0u) | (sx < 0.0f ? low_bits + 1u : 0u);
+    stretch.flip_y = (turn_y ? low_bits : 0u) | (sy < 0.0f ? low_bits + 1u : 0u);
+    float last = side * SPA_BELOW_ONE;
+    stretch.x0 = turn_x ? min(side - xa, last) : xa;
+    stretch.y0 = turn_y ? min(side - ya, last) : ya;
+    stretch.dx = max((turn_x ? side - xb : xb) - stretch.x0, 0.0f);
+    stretch.dy = max((turn_y ? side - yb : yb) - stretch.y0, 0.0f);
     stretch.w0 = wa;
     stretch.dw = wb - wa;
     return outside;

@@ -70,7 +70,7 @@ class CellFinder {
 public:
     CellFinder(const Part& part, const MapSamples& samples) : part_(part), samples_(samples) {
         cells_count_ = (samples.grid.width - 1) / 2;
-        result_.levels = std::uint32_t(std::bit_width(cells_count_ - 1));
+        result_.levels = std::max(1U, std::uint32_t(std::bit_width(cells_count_ - 1)));
         result_.ranges.resize(std::size_t(4) << (2 * result_.levels));
         find_extent();
     }
@@ -137,8 +137,10 @@ private:
     }
 
     void add_cell(std::uint32_t quadrant, std::uint32_t x, std::uint32_t y) {
-        const std::size_t cell =
-            (std::size_t(quadrant) << (2 * result_.levels)) + (std::size_t(y) << result_.levels) + x;
+        const std::uint32_t side = 1U << result_.levels;
+        const std::size_t column = (quadrant & 1U) == 0 ? x : side + x;
+        const std::size_t row = (quadrant & 2U) == 0 ? y : side + y;
+        const std::size_t cell = row * 2 * side + column;
         std::array<MapTriangle, 2> triangles;
         std::array<bool, 2> mixed{};
         for (std::uint32_t beyond = 0; beyond < 2; ++beyond) {

@@ -25,8 +25,9 @@ struct MapSamples {
 // layers: as many at most; 0: all.
 MapSamples read_samples(const Part& part, std::uint32_t layers);
 
-// The cells of an octahedral map, quadrant by quadrant (bit 0: left, bit 1: below the middle), row by row,
-// counted from the middle; a quadrant has 2^levels x 2^levels of them, padding included.
+// The cells of an octahedral map. A quadrant has 2^levels x 2^levels of them, padding included; x counts from
+// the middle to the right, and those to the left of the middle, counted to the left, come after them; so does
+// y, upwards.
 struct MapCells {
     std::uint32_t levels = 0;
     std::vector<Ranges> ranges;       // of w in each cell

@@ -17,9 +17,9 @@ std::uint32_t pattern(float value) { return std::bit_cast<std::uint32_t>(value);
 struct Codes {
     std::uint32_t base = 0, shift = 0;
 
-    explicit Codes(const MapCells& cells) : base(pattern(cells.w_min * (1 - 2 * margin))) {
-        // The last code stands for what no ray reaches, which is above the greatest end.
-        const std::uint32_t span = pattern(cells.w_max * (1 + 2 * margin)) - base;
+    Codes(float w_min, float w_core) : base(pattern(w_min * (1 - 2 * margin))) {
+        // The last code stands for what no ray reaches.
+        const std::uint32_t span = pattern(w_core * (1 + 2 * margin)) - base;
         while ((span >> shift) + 1 >= last_code) ++shift;
     }
     [[nodiscard]] std::uint32_t low(float w) const { return (pattern(w * (1 - margin)) - base) >> shift; }
@@ -37,9 +37,9 @@ std::uint32_t encode(const Codes& codes, const Range& range) {
 
 } // namespace
 
-NodePyramid build_pyramid(const MapCells& cells, std::uint32_t words) {
+NodePyramid build_pyramid(const MapCells& cells, float w_core, std::uint32_t words) {
     NodePyramid pyramid;
-    const Codes codes(cells);
+    const Codes codes(cells.w_min, w_core);
     pyramid.words = words;
     pyramid.code_base = codes.base;
     pyramid.code_shift = codes.shift;
@@ -48,7 +48,7 @@ NodePyramid build_pyramid(const MapCells& cells, std::uint32_t words) {
     pyramid.nodes.assign(words * total, empty_range);
     std::vector<Ranges> level = cells.ranges;
     for (std::uint32_t bits = cells.levels;; --bits) {
-        const std::size_t first = shader::spa_node(bits, 0, 0, 0);
+        const std::size_t first = shader::spa_node(bits, 0, 0);
         for (std::size_t i = 0; i < level.size(); ++i) {
             Ranges ranges = level[i];
             if (words == 1 && ranges.count() == 2) {
@@ -61,12 +61,9 @@ NodePyramid build_pyramid(const MapCells& cells, std::uint32_t words) {
         }
         if (bits == 0) break;
         std::vector<Ranges> above(level.size() / 4);
-        for (std::size_t i = 0; i < level.size(); ++i) {
-            const std::size_t quadrant = i >> (2 * bits);
-            const std::size_t y = (i >> bits) & ((std::size_t(1) << bits) - 1);
-            const std::size_t x = i & ((std::size_t(1) << bits) - 1);
-            above[(quadrant << (2 * (bits - 1))) + ((y / 2) << (bits - 1)) + x / 2].add(level[i]);
-        }
+        const std::size_t row = std::size_t(2) << bits;
+        for (std::size_t i = 0; i < level.size(); ++i)
+            above[(i / row / 2) * (row / 2) + i % row / 2].add(level[i]);
         level = std::move(above);
     }
     return pyramid;

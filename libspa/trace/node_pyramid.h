@@ -15,8 +15,8 @@ struct NodePyramid {
     std::vector<std::uint32_t> nodes;
 };
 
-// words: 1 or 2. A node covers everything below it, the smallest gaps closed. Ends are rounded outward: by
-// more than a float ray may be off, and to the next code. O(cells).
-NodePyramid build_pyramid(const MapCells& cells, std::uint32_t words);
+// words: 1 or 2. w_core: no ray reaches a greater w. A node covers everything below it, the smallest gaps
+// closed. Ends are rounded outward: by more than a float ray may be off, and to the next code. O(cells).
+NodePyramid build_pyramid(const MapCells& cells, float w_core, std::uint32_t words);
 
 } // namespace spa::trace

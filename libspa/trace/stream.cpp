@@ -54,11 +54,13 @@ struct OcclusionSink {
 
 // What is not a hit on a pure cell: the text looks at the one cell, or traces the ray.
 template <class Sink>
-void finish_by_text(const TraceMap& map, const StreamBlock& block, std::size_t job, Found found,
-                    const Ray* rays, std::uint32_t flags, const Sink& sink) {
+void finish_by_text(const TraceMap& map, const StreamBlock& block, std::size_t result, const Ray* rays,
+                    std::uint32_t flags, const Sink& sink) {
+    const ResultBlock& results = block.results;
+    const std::size_t job = results.job[result];
     const std::size_t chord = block.stretches.chord[job];
     const std::size_t ray = block.chords.ray[chord];
-    if (found == Found::unusual) {
+    if (Found(results.found[result]) == Found::unusual) {
         sink.trace(map, rays[ray], flags, ray);
         return;
     }
@@ -69,15 +71,14 @@ void finish_by_text(const TraceMap& map, const StreamBlock& block, std::size_t j
         shader::SpaTriangle tri{};
         // A ray that may start in the solid does not, or it would be unusual.
         shader::uint state = SPA_OUTSIDE;
-        const ResultBlock& results = block.results;
-        shader::spa_cross_cell(map.map(), stretch, results.x[job], results.y[job], results.s0[job],
-                               results.s1[job], flags, state, event, piece, tri);
+        shader::spa_cross_cell(map.map(), stretch, results.x[result], results.y[result], results.s0[result],
+                               results.s1[result], flags, state, event, piece, tri);
         const ChordBlock& chords = block.chords;
         shader::SpaChord of_ray{};
         of_ray.foot = {chords.foot_x[chord], chords.foot_y[chord], chords.foot_z[chord]};
         of_ray.foot_t = chords.foot_t[chord];
         sink.hits[ray] = to_hit(shader::spa_finish(map.map(), to_shader(rays[ray]), of_ray, stretch, event,
-                                                   piece, tri, results.x[job], results.y[job]));
+                                                   piece, tri, results.x[result], results.y[result]));
     } else {
         sink.put(ray);
     }
@@ -89,26 +90,19 @@ void finish_pass(const TraceMap& map, StreamBlock& block, const Ray* rays, std::
     const std::size_t lane_count = hn::Lanes(du);
     const ResultBlock& results = block.results;
     HitBlock hits{};
-    for (std::size_t first = 0; first < block.stretches.count; first += lane_count) {
-        const VU kinds = hn::LoadU(du, results.found + first);
-        if constexpr (Sink::wants_record) {
-            const MU surface = hn::Eq(kinds, hn::Set(du, std::uint32_t(Found::surface)));
-            if (!hn::AllFalse(du, surface))
-                finish<with_inner>(map.map(), block.chords, block.stretches, results, rays, first, hits);
-        }
-        const std::size_t last = std::min(first + lane_count, block.stretches.count);
-        for (std::size_t job = first; job < last; ++job) {
-            const auto found = Found(results.found[job]);
-            if (found == Found::nothing) continue;
-            const std::size_t chord = block.stretches.chord[job];
+    for (std::size_t first = 0; first < results.count; first += lane_count) {
+        if constexpr (Sink::wants_record) finish<with_inner>(map.map(), block, rays, first, hits);
+        const std::size_t last = std::min(first + lane_count, results.count);
+        for (std::size_t result = first; result < last; ++result) {
+            const std::size_t chord = block.stretches.chord[results.job[result]];
             block.chords.done[chord] = UINT32_MAX;
             if constexpr (Sink::wants_record) {
-                if (found == Found::surface && hits.by_text[job - first] == 0) {
-                    sink.put(block.chords.ray[chord], hits, job - first);
+                if (Found(results.found[result]) == Found::surface && hits.by_text[result - first] == 0) {
+                    sink.put(block.chords.ray[chord], hits, result - first);
                     continue;
                 }
             }
-            finish_by_text(map, block, job, found, rays, flags, sink);
+            finish_by_text(map, block, result, rays, flags, sink);
         }
     }
 }
@@ -123,9 +117,6 @@ void trace_blocks(const TraceMap& map, const Ray* rays, std::size_t count, std::
         for (std::size_t pass = 0; pass < 4; ++pass) {
             find_stretches(map.map(), pass, block.chords, block.stretches);
             if (block.stretches.count == 0) continue;
-            // To the end of the last vector: what lies behind the last job must not look like a hit.
-            std::fill_n(block.results.found + 0, block.stretches.count + hn::Lanes(du),
-                        std::uint32_t(Found::nothing));
             walk<with_inner>(map.map(), block.stretches, block.results);
             finish_pass<with_inner>(map, block, rays + first, flags, sink);
         }

@@ -13,7 +13,7 @@
 namespace spa::trace {
 
 // Rays of a block: enough to fill vectors while lanes wait for each other, few enough to stay in the cache.
-constexpr std::size_t block_rays = 1024;
+constexpr std::size_t block_rays = 512;
 // Vectors are stored whole.
 constexpr std::size_t block_room = block_rays + 64;
 
@@ -40,29 +40,28 @@ struct ChordBlock {
     Words done;                       // all bits: nothing more to trace
 };
 
-// Bits of StretchBlock::turn.
-constexpr std::uint32_t turn_quadrant = 3; // as SpaStretch::quadrant: negative x, y
-constexpr std::uint32_t turn_lower = 4;    // negative z
-constexpr std::uint32_t turn_flip_x = 8, turn_flip_y = 16;
-constexpr std::uint32_t turn_unknown = 32;
-
-// Stretches to walk (SpaStretch): the jobs of one pass.
+// Stretches to walk (SpaStretch): the jobs of one pass. place: where the walk begins.
 struct StretchBlock {
     std::size_t count = 0;
-    Words chord; // index into the chords
-    Floats x0, y0, w0, dx, dy, dw, ta, tb;
-    Words turn;
+    Words number; // its own index
+    Words chord;  // index into the chords
+    Floats x0, y0, w0, dx, dy, dw, per_x, per_y, ta, tb;
+    Words flip_x, flip_y;
+    Words x, y;
+    Words lower;   // all bits: z is negative
+    Words unknown; // all bits: whether the ray starts in the solid is to be found out at the first cell
 };
 
 enum class Found : std::uint32_t {
-    nothing = 0,
     surface, // in a pure cell: what finish can fill by vectors
     event,   // anything else in one cell: the text fills it
     unusual, // the ray starts in the solid, or goes through an open wall: the text traces it from the start
 };
 
-// What came of each job.
+// What was found, in no particular order.
 struct ResultBlock {
+    std::size_t count = 0;
+    Words job;
     Words found; // Found
     Words x, y;  // turned cell
     Floats s0, s1;
@@ -75,9 +74,6 @@ struct StreamBlock {
 };
 
 inline shader::SpaStretch load_stretch(const shader::SpaMap& map, const StretchBlock& jobs, std::size_t job) {
-    const std::uint32_t turn = jobs.turn[job];
-    const std::uint32_t side = 1U << map.levels;
-    const auto half_cells = float(map.width - 1) * 0.5F;
     shader::SpaStretch stretch{};
     stretch.x0 = jobs.x0[job];
     stretch.y0 = jobs.y0[job];
@@ -85,13 +81,10 @@ inline shader::SpaStretch load_stretch(const shader::SpaMap& map, const StretchB
     stretch.dx = jobs.dx[job];
     stretch.dy = jobs.dy[job];
     stretch.dw = jobs.dw[job];
-    stretch.flip_x = (turn & turn_flip_x) != 0 ? side - 1 : 0;
-    stretch.flip_y = (turn & turn_flip_y) != 0 ? side - 1 : 0;
-    stretch.end_x = (turn & turn_flip_x) != 0 ? float(side) : half_cells;
-    stretch.end_y = (turn & turn_flip_y) != 0 ? float(side) : half_cells;
-    stretch.quadrant = turn & turn_quadrant;
-    stretch.signs = {(turn & 1U) != 0 ? -1.0F : 1.0F, (turn & 2U) != 0 ? -1.0F : 1.0F,
-                     (turn & turn_lower) != 0 ? -1.0F : 1.0F};
+    stretch.flip_x = jobs.flip_x[job];
+    stretch.flip_y = jobs.flip_y[job];
+    const auto sign = [&](std::uint32_t flip) { return (flip >> map.levels) != 0 ? -1.0F : 1.0F; };
+    stretch.signs = {sign(stretch.flip_x), sign(stretch.flip_y), jobs.lower[job] != 0 ? -1.0F : 1.0F};
     stretch.ta = jobs.ta[job];
     stretch.tb = jobs.tb[job];
     return stretch;

@@ -13,11 +13,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace spa::trace::HWY_NAMESPACE {
 
-// A stretch a lane. flip_x and flip_y are all bits of a turned coordinate, else 0.
+// A stretch a lane (SpaStretch).
 struct StretchLanes {
     VF x0, y0, w0, dx, dy, dw;
-    VU quadrant, flip_x, flip_y;
+    VU flip_x, flip_y;
 };
+
+HWY_INLINE MF has_bit(VU words, std::uint32_t bit) {
+    return hn::RebindMask(df, hn::Ne(hn::And(words, hn::Set(du, bit)), hn::Zero(du)));
+}
 
 // A cell a lane: where the ray enters and leaves it, and the samples at its corners.
 struct CellLanes {
@@ -80,19 +84,21 @@ struct CornerPlaces {
     VI corner, step_x, step_y;
 };
 
-HWY_INLINE CornerPlaces corner_places(const shader::SpaMap& map, const StretchLanes& stretch, VU real_x,
-                                      VU real_y) {
+// place_x, place_y: cells on the whole map.
+HWY_INLINE CornerPlaces corner_places(const shader::SpaMap& map, VU place_x, VU place_y) {
     const auto width = std::int32_t(map.width);
     const std::int32_t middle = std::int32_t(map.width - 1) / 2;
-    const auto left = hn::Ne(hn::And(stretch.quadrant, hn::Set(du, 1)), hn::Zero(du));
-    const auto below = hn::Ne(hn::And(stretch.quadrant, hn::Set(du, 2)), hn::Zero(du));
-    const VI step_x = hn::IfThenElse(hn::RebindMask(di, left), hn::Set(di, -1), hn::Set(di, 1));
-    const VI step_y = hn::IfThenElse(hn::RebindMask(di, below), hn::Set(di, width), hn::Set(di, -width));
-    const VI x = hn::BitCast(di, real_x);
-    const VI along_x = hn::IfThenElse(hn::RebindMask(di, left), hn::Neg(x), x);
-    const VI corner = hn::Add(hn::Add(hn::Set(di, middle * width + middle), along_x),
-                              hn::Mul(hn::BitCast(di, real_y), step_y));
-    return {corner, step_x, step_y};
+    const std::uint32_t side = 1U << map.levels;
+    const auto left = hn::RebindMask(di, has_bit(place_x, side));
+    const auto below = hn::RebindMask(di, has_bit(place_y, side));
+    const VU low_bits = hn::Set(du, side - 1);
+    const VI step_x = hn::IfThenElse(left, hn::Set(di, -1), hn::Set(di, 1));
+    const VI step_y = hn::IfThenElse(below, hn::Set(di, width), hn::Set(di, -width));
+    const VI x = hn::BitCast(di, hn::And(place_x, low_bits));
+    const VI y = hn::BitCast(di, hn::And(place_y, low_bits));
+    const VI along_x = hn::IfThenElse(left, hn::Neg(x), x);
+    return {hn::Add(hn::Add(hn::Set(di, middle * width + middle), along_x), hn::Mul(y, step_y)), step_x,
+            step_y};
 }
 
 HWY_INLINE CornerLanes corners(const float* samples, const CornerPlaces& places) {
@@ -145,8 +151,8 @@ HWY_INLINE CrossLanes cross_cells(const shader::SpaMap& map, const StretchLanes&
                                   const CellLanes& cell) {
     const VF one = hn::Set(df, 1.0F);
     const VF zero = hn::Zero(df);
-    const MF flip_x = hn::RebindMask(df, hn::Ne(stretch.flip_x, hn::Zero(du)));
-    const MF flip_y = hn::RebindMask(df, hn::Ne(stretch.flip_y, hn::Zero(du)));
+    const MF flip_x = has_bit(stretch.flip_x, 1);
+    const MF flip_y = has_bit(stretch.flip_y, 1);
     const VF x = to_floats(cell.x);
     const VF y = to_floats(cell.y);
     const auto place = [&](VF start, VF change, VF s, VF from, MF flip) {
@@ -176,7 +182,7 @@ HWY_INLINE CrossLanes cross_cells(const shader::SpaMap& map, const StretchLanes&
     const PieceLanes second{sm, um, vm, wm, cell.s1, u1, v1, w1};
 
     const CornerPlaces places =
-        corner_places(map, stretch, hn::Xor(cell.x, stretch.flip_x), hn::Xor(cell.y, stretch.flip_y));
+        corner_places(map, hn::Xor(cell.x, stretch.flip_x), hn::Xor(cell.y, stretch.flip_y));
     const auto* const samples = reinterpret_cast<const float*>(map.words.first + map.samples);
     const std::size_t count = std::size_t(map.width) * map.height;
 

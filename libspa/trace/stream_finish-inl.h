@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace spa::trace::HWY_NAMESPACE {
 
-// The finished records of up to one vector of jobs.
+// The finished records of up to one vector of results.
 struct HitBlock {
     HWY_ALIGN float t[hn::MaxLanes(df)];
     HWY_ALIGN float normal_x[hn::MaxLanes(df)], normal_y[hn::MaxLanes(df)], normal_z[hn::MaxLanes(df)];
@@ -31,32 +31,26 @@ HWY_INLINE VF time_of(const StretchLanes& stretch, VF ta, VF tb, VF sigma) {
     return hn::Min(hn::Max(t, ta), tb);
 }
 
-// The jobs from `first` on, a vector of them; those that hit no pure cell give nonsense.
+// The results from `first` on, a vector of them; those that are no hits on a pure cell give nonsense.
 template <bool with_inner>
-HWY_INLINE void finish(const shader::SpaMap& map, const ChordBlock& chords, const StretchBlock& jobs,
-                       const ResultBlock& results, const Ray* rays, std::size_t first, HitBlock& hits) {
-    const MU wanted =
-        hn::Eq(hn::LoadU(du, results.found + first), hn::Set(du, std::uint32_t(Found::surface)));
-    const VU turn = hn::LoadU(du, jobs.turn + first);
-    const auto mask = [&](std::uint32_t bit) {
-        return hn::RebindMask(df, hn::Ne(hn::And(turn, hn::Set(du, bit)), hn::Zero(du)));
-    };
+HWY_INLINE void finish(const shader::SpaMap& map, const StreamBlock& block, const Ray* rays,
+                       std::size_t first, HitBlock& hits) {
+    const ChordBlock& chords = block.chords;
+    const StretchBlock& jobs = block.stretches;
+    const ResultBlock& results = block.results;
+    // Lanes behind the last result do what the first one does.
+    const MU real = hn::FirstN(du, results.count - first);
+    const VI job = hn::BitCast(di, hn::IfThenElseZero(real, hn::LoadU(du, results.job + first)));
+    const auto of_job = [&](const Floats& from) { return hn::GatherIndex(df, from + 0, job); };
+    const auto word_of_job = [&](const Words& from) { return gather(from + 0, hn::BitCast(du, job)); };
     const std::uint32_t side = 1U << map.levels;
-    const MF flip_x = mask(turn_flip_x);
-    const MF flip_y = mask(turn_flip_y);
-    const auto flip = [&](MF m) { return hn::IfThenElseZero(hn::RebindMask(du, m), hn::Set(du, side - 1)); };
-    const StretchLanes stretch{hn::LoadU(df, jobs.x0 + first),
-                               hn::LoadU(df, jobs.y0 + first),
-                               hn::LoadU(df, jobs.w0 + first),
-                               hn::LoadU(df, jobs.dx + first),
-                               hn::LoadU(df, jobs.dy + first),
-                               hn::LoadU(df, jobs.dw + first),
-                               hn::And(turn, hn::Set(du, turn_quadrant)),
-                               flip(flip_x),
-                               flip(flip_y)};
-    const VU limit = hn::Set(du, side - 1);
-    const CellLanes cell{hn::Min(hn::IfThenElseZero(wanted, hn::LoadU(du, results.x + first)), limit),
-                         hn::Min(hn::IfThenElseZero(wanted, hn::LoadU(du, results.y + first)), limit),
+    const StretchLanes stretch{of_job(jobs.x0),          of_job(jobs.y0),         of_job(jobs.w0),
+                               of_job(jobs.dx),          of_job(jobs.dy),         of_job(jobs.dw),
+                               word_of_job(jobs.flip_x), word_of_job(jobs.flip_y)};
+    const MF flip_x = has_bit(stretch.flip_x, 1);
+    const MF flip_y = has_bit(stretch.flip_y, 1);
+    const CellLanes cell{hn::IfThenElseZero(real, hn::LoadU(du, results.x + first)),
+                         hn::IfThenElseZero(real, hn::LoadU(du, results.y + first)),
                          hn::LoadU(df, results.s0 + first), hn::LoadU(df, results.s1 + first)};
     const CrossLanes cross = cross_cells<with_inner>(map, stretch, cell);
     const PieceLanes& piece = cross.piece;
@@ -72,18 +66,19 @@ HWY_INLINE void finish(const shader::SpaMap& map, const ChordBlock& chords, cons
     hn::Store(hn::VecFromMask(du, hn::RebindMask(du, wall)), du, hits.by_text);
 
     // Of edges only those of the outer plane stay here: cross.plane is the outer one unless cross.inner.
-    const VF ta = hn::LoadU(df, jobs.ta + first);
-    const VF tb = hn::LoadU(df, jobs.tb + first);
-    const VI chord = hn::BitCast(di, hn::IfThenElseZero(wanted, hn::LoadU(du, jobs.chord + first)));
+    const VF ta = of_job(jobs.ta);
+    const VF tb = of_job(jobs.tb);
+    const VI chord = hn::BitCast(di, word_of_job(jobs.chord));
     const auto of_chord = [&](const Floats& from) { return hn::GatherIndex(df, from + 0, chord); };
     const VectorLanes foot{of_chord(chords.foot_x), of_chord(chords.foot_y), of_chord(chords.foot_z)};
     const VectorLanes direction{of_chord(chords.direction_x), of_chord(chords.direction_y),
                                 of_chord(chords.direction_z)};
-    const MF left = mask(1);
-    const MF below = mask(2);
-    const MF lower = mask(turn_lower);
-    const VU real_x = hn::Xor(cell.x, stretch.flip_x);
-    const VU real_y = hn::Xor(cell.y, stretch.flip_y);
+    const MF left = has_bit(stretch.flip_x, side);
+    const MF below = has_bit(stretch.flip_y, side);
+    const MF lower = hn::RebindMask(df, hn::MaskFromVec(word_of_job(jobs.lower)));
+    const VU low_bits = hn::Set(du, side - 1);
+    const VU real_x = hn::And(hn::Xor(cell.x, stretch.flip_x), low_bits);
+    const VU real_y = hn::And(hn::Xor(cell.y, stretch.flip_y), low_bits);
     const VF x = to_floats(real_x);
     const VF y = to_floats(real_y);
     const auto cells = float((map.width - 1) / 2);

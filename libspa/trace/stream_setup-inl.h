@@ -26,28 +26,28 @@ HWY_INLINE VectorLanes along(const VectorLanes& a, const VectorLanes& b, VF s) {
     return {hn::Add(a.x, hn::Mul(b.x, s)), hn::Add(a.y, hn::Mul(b.y, s)), hn::Add(a.z, hn::Mul(b.z, s))};
 }
 
-template <class V, class M, class T>
-HWY_INLINE void append(V values, M keep, T* to) {
-    hn::StoreU(hn::Compress(values, keep), hn::DFromV<V>(), to);
-}
+// One coordinate of a ray: what the text asks of it with spa_crossing, spa_enters and spa_leaves.
+struct CoordinateLanes {
+    VF position, per;
+    MF still, rises;
 
-// When the ray crosses a coordinate plane (spa_crossing).
-HWY_INLINE VF crossing(VF position, VF direction, VF t0, VF t1) {
-    const VF t = hn::Min(hn::Max(hn::Div(hn::Neg(position), direction), t0), t1);
-    return hn::IfThenElse(hn::Eq(direction, hn::Zero(df)), t1, t);
-}
+    HWY_INLINE CoordinateLanes(VF position_, VF direction)
+        : position(position_), per(hn::Div(hn::Set(df, 1.0F), direction)),
+          still(hn::Lt(hn::Abs(direction), hn::Set(df, SPA_TINY))), rises(hn::Gt(direction, hn::Zero(df))) {}
 
-// spa_enters and spa_leaves
-HWY_INLINE VF enters_box(VF position, VF direction, float low, float high) {
-    const VF side = hn::IfThenElse(hn::Gt(direction, hn::Zero(df)), hn::Set(df, low), hn::Set(df, high));
-    const VF t = hn::Div(hn::Sub(side, position), direction);
-    return hn::IfThenElse(hn::Eq(direction, hn::Zero(df)), hn::Set(df, -SPA_NEVER), t);
-}
-HWY_INLINE VF leaves_box(VF position, VF direction, float low, float high) {
-    const VF side = hn::IfThenElse(hn::Gt(direction, hn::Zero(df)), hn::Set(df, high), hn::Set(df, low));
-    const VF t = hn::Div(hn::Sub(side, position), direction);
-    return hn::IfThenElse(hn::Eq(direction, hn::Zero(df)), hn::Set(df, SPA_NEVER), t);
-}
+    [[nodiscard]] HWY_INLINE VF crossing(VF t0, VF t1) const {
+        const VF t = hn::Min(hn::Max(hn::Mul(hn::Neg(position), per), t0), t1);
+        return hn::IfThenElse(still, t1, t);
+    }
+    [[nodiscard]] HWY_INLINE VF enters(float low, float high) const {
+        const VF side = hn::IfThenElse(rises, hn::Set(df, low), hn::Set(df, high));
+        return hn::IfThenElse(still, hn::Set(df, -SPA_NEVER), hn::Mul(hn::Sub(side, position), per));
+    }
+    [[nodiscard]] HWY_INLINE VF leaves(float low, float high) const {
+        const VF side = hn::IfThenElse(rises, hn::Set(df, high), hn::Set(df, low));
+        return hn::IfThenElse(still, hn::Set(df, SPA_NEVER), hn::Mul(hn::Sub(side, position), per));
+    }
+};
 
 // The chords of the rays that meet the map's sphere.
 inline void find_chords(const shader::SpaMap& map, const Ray* rays, std::size_t count, ChordBlock& chords) {
@@ -80,12 +80,15 @@ inline void find_chords(const shader::SpaMap& map, const Ray* rays, std::size_t 
         MF unknown = hn::Gt(t_min, negative);
         VF t0 = hn::Max(negative, t_min);
         VF t1 = hn::Min(half_chord, hn::Sub(ray_max, foot_t));
-        const VF enters = hn::Max(enters_box(foot.x, direction.x, map.box_low.x, map.box_high.x),
-                                  hn::Max(enters_box(foot.y, direction.y, map.box_low.y, map.box_high.y),
-                                          enters_box(foot.z, direction.z, map.box_low.z, map.box_high.z)));
-        const VF leaves = hn::Min(leaves_box(foot.x, direction.x, map.box_low.x, map.box_high.x),
-                                  hn::Min(leaves_box(foot.y, direction.y, map.box_low.y, map.box_high.y),
-                                          leaves_box(foot.z, direction.z, map.box_low.z, map.box_high.z)));
+        const CoordinateLanes x(foot.x, direction.x);
+        const CoordinateLanes y(foot.y, direction.y);
+        const CoordinateLanes z(foot.z, direction.z);
+        const VF enters = hn::Max(
+            x.enters(map.box_low.x, map.box_high.x),
+            hn::Max(y.enters(map.box_low.y, map.box_high.y), z.enters(map.box_low.z, map.box_high.z)));
+        const VF leaves = hn::Min(
+            x.leaves(map.box_low.x, map.box_high.x),
+            hn::Min(y.leaves(map.box_low.y, map.box_high.y), z.leaves(map.box_low.z, map.box_high.z)));
         unknown = hn::And(unknown, hn::Gt(t0, enters));
         const MF chord = hn::Lt(t0, t1);
         t0 = hn::Max(t0, enters);
@@ -95,9 +98,9 @@ inline void find_chords(const shader::SpaMap& map, const Ray* rays, std::size_t 
         const std::size_t more = hn::CountTrue(df, meets);
         if (more == 0) continue;
 
-        const VF cx = crossing(foot.x, direction.x, t0, t1);
-        const VF cy = crossing(foot.y, direction.y, t0, t1);
-        const VF cz = crossing(foot.z, direction.z, t0, t1);
+        const VF cx = x.crossing(t0, t1);
+        const VF cy = y.crossing(t0, t1);
+        const VF cz = z.crossing(t0, t1);
         const VF low = hn::Min(cx, cy);
         const VF high = hn::Max(cx, cy);
         append(ray, hn::RebindMask(du, meets), chords.ray + n);
@@ -130,7 +133,7 @@ HWY_INLINE MF is_negative(VF position, VF direction, VF crossing, VF at) {
     const MF before = hn::Lt(at, crossing);
     const MF rises = hn::Gt(direction, zero);
     const MF moving = hn::Not(hn::Xor(before, rises));
-    return select_mask(hn::Eq(direction, zero), hn::Lt(position, zero), moving);
+    return select_mask(hn::Lt(hn::Abs(direction), hn::Set(df, SPA_TINY)), hn::Lt(position, zero), moving);
 }
 
 // The stretches of one pass, between two of a chord's five times, of all rays that are not done.
@@ -142,6 +145,12 @@ inline void find_stretches(const shader::SpaMap& map, std::size_t pass, ChordBlo
     const VF core = hn::Set(df, 1.0F / map.w_core);
     const VF zero = hn::Zero(df);
     const VF one = hn::Set(df, 1.0F);
+    const VF below_one = hn::Set(df, SPA_BELOW_ONE);
+    const VF last = hn::Mul(side, below_one);
+    const VF later = hn::Set(df, SPA_LATER);
+    const VF tiny = hn::Set(df, 1e-20F);
+    const VU low_bits = hn::Set(du, (1U << map.levels) - 1);
+    const VU high_bit = hn::Set(du, 1U << map.levels);
     std::size_t n = 0;
     for (std::size_t first = 0; first < chords.count; first += lane_count) {
         const VF ta = hn::LoadU(df, chords.time[pass] + first);
@@ -197,7 +206,8 @@ inline void find_stretches(const shader::SpaMap& map, std::size_t pass, ChordBlo
         const VF wa = hn::Div(one, la);
         const VF wb = hn::Div(one, lb);
         const auto coordinate = [&](VF p, VF z, VF w) {
-            return hn::Mul(hn::Min(hn::Mul(hn::IfThenElse(lower, hn::Add(p, z), p), w), one), half_cells);
+            return hn::Mul(hn::Min(hn::Mul(hn::IfThenElse(lower, hn::Add(p, z), p), w), below_one),
+                           half_cells);
         };
         const VF xa = coordinate(a.x, a.z, wa);
         const VF ya = coordinate(a.y, a.z, wa);
@@ -205,32 +215,47 @@ inline void find_stretches(const shader::SpaMap& map, std::size_t pass, ChordBlo
         const VF yb = coordinate(b.y, b.z, wb);
         const MF turn_x = hn::Lt(xb, xa);
         const MF turn_y = hn::Lt(yb, ya);
-        const auto turned = [&](MF turn, VF p) { return hn::IfThenElse(turn, hn::Sub(side, p), p); };
-        const VF x0 = turned(turn_x, xa);
-        const VF y0 = turned(turn_y, ya);
-        const VU unknown_bits = hn::LoadU(du, chords.unknown + first);
-        const auto bit = [&](MF mask, std::uint32_t value) {
-            return hn::IfThenElseZero(hn::RebindMask(du, mask), hn::Set(du, value));
+        const auto begin = [&](MF turn, VF p) {
+            return hn::IfThenElse(turn, hn::Min(hn::Sub(side, p), last), p);
         };
-        const VU turn = hn::Or(hn::Or(hn::Or(bit(left, 1), bit(below, 2)), bit(lower, turn_lower)),
-                               hn::Or(hn::Or(bit(turn_x, turn_flip_x), bit(turn_y, turn_flip_y)),
-                                      hn::And(unknown_bits, hn::Set(du, turn_unknown))));
+        const VF x0 = begin(turn_x, xa);
+        const VF y0 = begin(turn_y, ya);
+        const auto change = [&](MF turn, VF p, VF from) {
+            return hn::Max(hn::Sub(hn::IfThenElse(turn, hn::Sub(side, p), p), from), zero);
+        };
+        const VF dx = change(turn_x, xb, x0);
+        const VF dy = change(turn_y, yb, y0);
+        const auto flip = [&](MF turn, MF negative) {
+            return hn::Or(hn::IfThenElseZero(hn::RebindMask(du, turn), low_bits),
+                          hn::IfThenElseZero(hn::RebindMask(du, negative), high_bit));
+        };
+        const VU unknown_bits = hn::LoadU(du, chords.unknown + first);
         const MU outside_u = hn::RebindMask(du, outside);
         append(hn::Iota(du, std::uint32_t(first)), outside_u, jobs.chord + n);
         append(x0, outside, jobs.x0 + n);
         append(y0, outside, jobs.y0 + n);
         append(wa, outside, jobs.w0 + n);
-        append(hn::Sub(turned(turn_x, xb), x0), outside, jobs.dx + n);
-        append(hn::Sub(turned(turn_y, yb), y0), outside, jobs.dy + n);
+        append(dx, outside, jobs.dx + n);
+        append(dy, outside, jobs.dy + n);
         append(hn::Sub(wb, wa), outside, jobs.dw + n);
+        append(hn::Div(later, hn::Max(dx, tiny)), outside, jobs.per_x + n);
+        append(hn::Div(later, hn::Max(dy, tiny)), outside, jobs.per_y + n);
         append(start, outside, jobs.ta + n);
         append(end, outside, jobs.tb + n);
-        append(turn, outside_u, jobs.turn + n);
+        append(flip(turn_x, left), outside_u, jobs.flip_x + n);
+        append(flip(turn_y, below), outside_u, jobs.flip_y + n);
+        append(to_words(x0), outside_u, jobs.x + n);
+        append(to_words(y0), outside_u, jobs.y + n);
+        append(hn::VecFromMask(du, hn::RebindMask(du, lower)), outside_u, jobs.lower + n);
+        append(unknown_bits, outside_u, jobs.unknown + n);
         // Whether it starts in the solid is found out on a ray's first stretch.
         hn::StoreU(hn::IfThenZeroElse(outside_u, unknown_bits), du, chords.unknown + first);
         n += more;
     }
     jobs.count = n;
+    // Vectors are loaded whole, also of what lies behind the last job.
+    for (std::size_t i = 0; i < n + lane_count; i += lane_count)
+        hn::StoreU(hn::Iota(du, std::uint32_t(i)), du, jobs.number + i);
 }
 
 } // namespace spa::trace::HWY_NAMESPACE

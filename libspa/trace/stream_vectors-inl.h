@@ -42,6 +42,13 @@ HWY_INLINE VU gather(const std::uint32_t* words, VU index) {
     return hn::GatherIndex(du, words, hn::BitCast(di, index));
 }
 
+// The lanes of `keep`, one behind the other, at `to`; what follows them there is overwritten up to a whole
+// vector.
+template <class V, class M, class T>
+HWY_INLINE void append(V values, M keep, T* to) {
+    hn::StoreU(hn::Compress(values, keep), hn::DFromV<V>(), to);
+}
+
 } // namespace spa::trace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -48,7 +48,8 @@ constexpr float uniform_core = 2, mixed_core = 64;
 
 void add_cells(const Part& part, const MapSamples& samples, std::vector<std::uint32_t>& words) {
     const MapCells cells = find_cells(part, samples);
-    const NodePyramid pyramid = build_pyramid(cells, samples.surfaces > 1 ? 2 : 1);
+    const float w_core = cells.w_max * (cells.uniform_core ? uniform_core : mixed_core);
+    const NodePyramid pyramid = build_pyramid(cells, w_core, samples.surfaces > 1 ? 2 : 1);
     words[SPA_HEADER_RADIUS] = bits(cells.radius);
     const std::array<float, 6> box{cells.box_low.x,  cells.box_low.y,  cells.box_low.z,
                                    cells.box_high.x, cells.box_high.y, cells.box_high.z};
@@ -57,8 +58,7 @@ void add_cells(const Part& part, const MapSamples& samples, std::vector<std::uin
     words[SPA_HEADER_LEVELS] = cells.levels;
     words[SPA_HEADER_CODE_BASE] = pyramid.code_base;
     words[SPA_HEADER_CODE_SHIFT] = pyramid.code_shift;
-    words[SPA_HEADER_W_MAX] = bits(cells.w_max);
-    words[SPA_HEADER_W_CORE] = bits(cells.w_max * (cells.uniform_core ? uniform_core : mixed_core));
+    words[SPA_HEADER_W_CORE] = bits(w_core);
     words[SPA_HEADER_NODES] = append(words, pyramid.nodes);
     words[SPA_HEADER_SAMPLES] = append(words, patterns(samples.w));
     if (cells.lists.empty()) return;
