@@ -30,7 +30,7 @@ SPA_BEGIN
 
 // Words of a prism.
 #define SPA_PRISM_WORDS 8u // outer plane (3), inner plane (3), properties, place of the half-planes
-// Properties: bits 0-15 layer, 16-23 number of half-planes, bit 24: its walls are open.
+// Properties: bits 0-15 layer, 16-23 number of half-planes, bit 24 + n: half-plane n is an open wall.
 #define SPA_PRISM_OPEN 0x1000000u
 // Of a list of prisms that stands for a pure triangle.
 #define SPA_PURE 0xFFFFFFFFu
@@ -47,7 +47,7 @@ struct SpaPrism {
     uint layer;
     uint half_planes; // how many
     uint first;       // where
-    bool open;
+    uint open;        // bit n: half-plane n is an open wall
 };
 
 // A piece of the ray within one triangle: sigma, the place in the cell and w at both ends.
@@ -128,7 +128,7 @@ SPA_FUNCTION SpaPrism spa_prism(SpaMap map, SpaTriangle tri, uint index) {
         prism.layer = index;
         prism.half_planes = 0u;
         prism.first = 0u;
-        prism.open = false;
+        prism.open = 0u;
     } else {
         uint place = tri.first + index * SPA_PRISM_WORDS;
         uint properties = spa_load(map.words, place + 6u);
@@ -137,7 +137,7 @@ SPA_FUNCTION SpaPrism spa_prism(SpaMap map, SpaTriangle tri, uint index) {
         prism.layer = properties & 0xFFFFu;
         prism.half_planes = (properties >> 16u) & 0xFFu;
         prism.first = spa_load(map.words, place + 7u);
-        prism.open = (properties & SPA_PRISM_OPEN) != 0u;
+        prism.open = properties >> 24u;
     }
     return prism;
 }
@@ -238,8 +238,8 @@ SPA_FUNCTION SpaEvent spa_event(SpaMap map, SpaTriangle tri, SpaPrism prism, Spa
 }
 
 SPA_FUNCTION bool spa_silent(SpaPrism prism, SpaEvent event, uint flags) {
-    bool wall = event.by == SPA_BY_EDGE || event.by >= SPA_BY_HALF_PLANE;
-    if (wall && prism.open) return true;
+    if (event.by >= SPA_BY_HALF_PLANE && ((prism.open >> (event.by - SPA_BY_HALF_PLANE)) & 1u) != 0u)
+        return true;
     return (flags & (event.front ? SPA_CULL_FRONT : SPA_CULL_BACK)) != 0u;
 }
 

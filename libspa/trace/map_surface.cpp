@@ -62,6 +62,9 @@ constexpr std::array<std::array<Plane, 2>, 6> region_half_planes{{
     {{{2, -1, -2}, {0, 1, -1}}},
 }};
 
+// What lies on the other side of a region's two half-planes: the regions of these corners.
+constexpr std::array<std::array<std::size_t, 2>, 3> neighbors{{{1, 2}, {0, 2}, {0, 1}}};
+
 struct Slope {
     double u = 0, v = 0;
 };
@@ -244,18 +247,16 @@ private:
 
     std::uint32_t add_mixed(const MapTriangle& t, Ranges& ranges) {
         const std::array<Corner, 3> corners = corners_of(samples_.grid, t);
-        bool opening = false;
-        for (const Corner& corner : corners) opening = opening || intervals_at(corner.texel) == 0;
         std::uint32_t count = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t n = intervals_at(corners[i].texel);
-            for (std::uint32_t k = 0; k < n; ++k, ++count) add_region(t, corners, i, k, opening, ranges);
+            for (std::uint32_t k = 0; k < n; ++k, ++count) add_region(t, corners, i, k, ranges);
         }
         return count;
     }
 
     void add_region(const MapTriangle& t, const std::array<Corner, 3>& corners, std::size_t index,
-                    std::uint32_t k, bool opening, Ranges& ranges) {
+                    std::uint32_t k, Ranges& ranges) {
         const Corner& corner = corners[index];
         const std::array<Slope, 4> offsets = region_offsets(corners, index);
         const double outer = double(w_of(2 * k, corner.texel));
@@ -280,8 +281,11 @@ private:
         if (!to_center) result_.w_max = std::max(result_.w_max, range.high);
         append(plane_of(corner, outer, outer_slope));
         append(to_center ? Plane{far_w, 0, 0} : plane_of(corner, inner, inner_slope));
-        const bool open = opening && to_center && part_.center_inside;
-        result_.lists.push_back(k | 2U << 16U | (open ? SPA_PRISM_OPEN : 0U));
+        std::uint32_t properties = k | 2U << 16U;
+        if (to_center && part_.center_inside)
+            for (std::uint32_t n = 0; n < 2; ++n)
+                if (intervals_at(corners[neighbors[index][n]].texel) == 0) properties |= SPA_PRISM_OPEN << n;
+        result_.lists.push_back(properties);
         result_.places.push_back(std::uint32_t(result_.lists.size()));
         result_.lists.push_back((3 * t.beyond + std::uint32_t(index)) * 6);
     }

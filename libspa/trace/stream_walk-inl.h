@@ -61,7 +61,7 @@ HWY_INLINE WalkConstants walk_constants(const shader::SpaMap& map) {
     constants.code_base = hn::Set(du, map.code_base);
     constants.code_shift = int(map.code_shift);
     constants.lanes = hn::Lanes(du);
-    constants.enough_waiting = (constants.lanes * 3 + 7) / 8;
+    constants.enough_waiting = (constants.lanes + 1) / 2;
     constants.enough_free = (constants.lanes + 3) / 4;
     return constants;
 }
