@@ -235,12 +235,12 @@ private:
         return slope.u * offset.u + slope.v * offset.v;
     }
 
-    // Scaled so that W changes by 2 h W at most, h the size of a cell in (a, b), and by half of W on coarse
+    // Scaled so that W changes by 4 h W at most, h the size of a cell in (a, b), and by half of W on coarse
     // maps.
     [[nodiscard]] Slope limited(Slope slope, const std::array<Slope, 4>& offsets, double w) const {
         double most = 0;
         for (const Slope& offset : offsets) most = std::max(most, std::abs(change(slope, offset)));
-        const double limit = std::min(2 / double(cells_count_), 0.5) * w;
+        const double limit = std::min(4 / double(cells_count_), 0.5) * w;
         const double scale = most > limit ? limit / most : 1;
         return {slope.u * scale, slope.v * scale};
     }
