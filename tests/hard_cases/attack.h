@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hard rays against the projective trace, single and stream, every one of them judged.
+#pragma once
+
+#include "maps.h"
+#include "ray_classes.h"
+#include "verdict.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace spa::test {
+
+struct Tally {
+    std::uint64_t rays = 0;
+    std::uint64_t hits = 0;
+    std::array<std::uint64_t, verdict_count> verdicts{};
+    std::uint64_t stream_differs = 0;    // from the single ray, in any bit
+    std::uint64_t occlusion_differs = 0; // from whether there is a hit, single or stream
+    double largest_dt = 0;               // where the answer agrees, in units of R
+    std::vector<std::string> failures;   // the first few, to run again
+
+    void add(const Tally& other);
+    [[nodiscard]] std::uint64_t of(Verdict verdict) const { return verdicts[std::size_t(verdict)]; }
+    [[nodiscard]] bool passed() const;
+};
+
+struct AttackResult {
+    std::vector<std::string> parts;
+    std::vector<std::array<Tally, ray_class_count>> tallies; // of each part
+    [[nodiscard]] Tally total() const;
+};
+
+// rays_per_class: of each class, shared among the parts. Deterministic, whatever the number of threads.
+AttackResult attack(const std::vector<NamedPart>& parts, std::uint64_t rays_per_class, std::uint64_t seed,
+                    unsigned threads);
+
+void print(const AttackResult& result);
+
+} // namespace spa::test

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a ray meets, by brute force in double precision. Written from docs/tracing.md ("The stored surface")
+// alone, so that it shares neither code nor tricks with the tracers that it judges: every triangle, and every
+// region of a mixed one, is a convex solid in space, and a ray is clipped against its planes.
+#pragma once
+
+#include "../../libspa/core/spherical_map.h"
+#include "../../libspa/trace/ray.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace spa::test {
+
+struct RayD {
+    Vec3d origin, direction; // map space; the direction of any length > 0
+    double t_min = 0, t_max = 0;
+};
+
+RayD to_double(const trace::Ray& ray);
+
+// The ray enters or leaves the solid.
+struct Event {
+    double t = 0;
+    bool enters = false;
+    trace::HitSide side = trace::HitSide::outer;
+    bool open = false; // an open wall: no hit
+    std::uint32_t layer = 0;
+    Vec3d normal{};         // unit, out of the solid
+    double core_length = 0; // above 0: what happened in the core, seen where the ray leaves it; in units of R
+};
+
+class Judge {
+public:
+    // part: octahedral. layers: as many of its layers at most; 0: all.
+    explicit Judge(const Part& part, std::uint32_t layers = 0);
+
+    // Every event from a little before t_min to a little after t_max, in order: they enter and leave in
+    // turns.
+    [[nodiscard]] std::vector<Event> events(const RayD& ray) const;
+
+    // The closest hit of docs/tracing.md. flags: trace::TraceFlags.
+    [[nodiscard]] std::optional<Event> first(const RayD& ray, std::uint32_t flags = 0) const;
+    // The same among events that are known already.
+    static std::optional<Event> first(const std::vector<Event>& events, const RayD& ray, std::uint32_t flags);
+    // The events, but for gaps of the solid whose middle is no farther than `reach` from it.
+    [[nodiscard]] std::vector<Event> without_thin_gaps(const std::vector<Event>& events, const RayD& ray,
+                                                       double reach) const;
+
+    [[nodiscard]] bool solid(Vec3d point) const;
+    // Whether the boundary of a piece of solid passes the point at no more than `reach`.
+    [[nodiscard]] bool near_boundary(Vec3d point, double reach) const;
+    // Whether the point is that near to a face of this kind.
+    [[nodiscard]] bool near_face(Vec3d point, double reach, const Event& face) const;
+    // Whether the point is that near to a face of the solid by which the ray enters, or leaves.
+    [[nodiscard]] bool near_passage(Vec3d point, double reach, Vec3d direction, bool enters) const;
+    // Points just inside those pieces whose boundaries pass the point at no more than `reach`, no farther
+    // from it.
+    [[nodiscard]] std::vector<Vec3d> points_inside(Vec3d point, double reach) const;
+
+    [[nodiscard]] std::uint32_t cells() const { return 2 * n_; } // N
+    [[nodiscard]] double w_core() const { return w_core_; }
+    [[nodiscard]] std::size_t pieces() const { return pieces_.size(); }
+    [[nodiscard]] std::size_t mixed_triangles() const { return mixed_triangles_; }
+
+private:
+    // {p: plane . p >= offset}
+    struct HalfSpace {
+        Vec3d plane;
+        double offset = 0;
+        double slack = 0; // how far rounding may move the plane, in units of plane . p
+        trace::HitSide side = trace::HitSide::wall;
+        bool open = false;
+    };
+    // One interval over a triangle or region.
+    struct Piece {
+        std::array<HalfSpace, 6> halves; // outer end, inner end if there is one, sides
+        unsigned count = 0;
+        std::uint32_t layer = 0;
+    };
+    struct Interval {
+        double outer = 0, inner = 0;      // W; inner 0: reaches the centre
+        Vec3d outer_normal, inner_normal; // zero: none
+    };
+    struct Corner {
+        Vec3d direction; // |g|_1 = 1
+        std::vector<Interval> intervals;
+    };
+    struct Span;
+
+    void add_triangle(const std::array<Corner, 3>& corners, Vec3d signs, bool mixed, bool center_inside);
+    void add_region(const std::array<Corner, 3>& corners, unsigned i, Vec3d signs,
+                    bool center_inside);
+    void limit_slopes(const Interval& interval, Vec3d g, const std::array<Vec3d, 4>& region, Vec3d signs,
+                      Vec3d& outer, Vec3d& inner) const;
+    void add_ends(Piece& piece, Vec3d outer, Vec3d inner, bool to_center);
+    static void add_side(Piece& piece, Vec3d plane, bool open = false);
+    // How far inside a point is; below 0: outside.
+    static double depth_in(const Piece& piece, Vec3d point);
+    void note_core(bool solid) { (solid ? some_solid_ : some_empty_) = true; }
+
+    [[nodiscard]] std::size_t bin(unsigned octant, unsigned i, unsigned j) const {
+        return (std::size_t(octant) * n_ + i) * n_ + j;
+    }
+    void clip_octant(unsigned octant, Vec3d o, Vec3d d, double lo, double hi, std::vector<Span>& spans) const;
+    static void clip_piece(const Piece& piece, Vec3d o, Vec3d d, double lo, double hi,
+                           std::vector<Span>& spans);
+    void apply_core(std::vector<Event>& events, Vec3d o, Vec3d d, double t_min) const;
+
+    std::uint32_t n_ = 0; // cells of a quadrant's side: N/2
+    double w_max_ = 0, w_core_ = 0;
+    bool some_solid_ = false, some_empty_ = false; // of what is below the largest W
+    std::size_t mixed_triangles_ = 0;
+    std::vector<Piece> pieces_; // of bin k: first_[k] .. first_[k + 1]
+    std::vector<std::uint32_t> first_;
+};
+
+} // namespace spa::test

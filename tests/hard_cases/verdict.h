@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a tracer's answer is right, by the judge.
+//
+// An answer agrees if t is within `time_bound` of the judge's (more by the length of the core's chord, where
+// the hit is in the core) and what it says of the surface is what is there. Where it does not, rounding may
+// decide: rays moved sideways by 1e-5 and 1e-6 R, limits of t moved by as much, and rays moved by no more
+// than 1e-5 R to points just inside of what the traced point is next to, are judged too.
+//   A miss is excused if one of those misses.
+//   A hit is excused if one of those meets nothing earlier, and one has a hit there; or the point lies on
+//   a face by which the ray enters or leaves; or t lies between their hits and on the boundary of the solid.
+// Whatever is excused is counted.
+#pragma once
+
+#include "judge.h"
+
+#include <array>
+#include <string>
+
+namespace spa::test {
+
+enum class Verdict : unsigned {
+    agrees,
+    excused,      // rounding decides
+    missed,       // a hit is missing
+    invented,     // a hit where there is none
+    wrong_time,   // t is beyond the bound
+    wrong_record, // t is right; side, front, layer or normal belong to nothing that is there
+    invalid,      // NaN, or outside the limits of t or of the map
+};
+constexpr std::size_t verdict_count = 7;
+const char* name(Verdict verdict);
+
+// 1e-5 R, and beyond 20 R what the rounding of the ray's own points amounts to.
+double time_bound(const trace::Ray& ray);
+
+struct Judgement {
+    Verdict verdict = Verdict::agrees;
+    double dt = 0; // in units of R; 0 unless both hit
+    bool hit = false;
+};
+
+// ray, hit: in map space, as closest_hit takes and gives them. bound: of |dt| in units of R.
+Judgement judge_hit(const Judge& judge, const trace::Ray& ray, std::uint32_t flags, const trace::Hit& hit,
+                    double bound);
+
+// The ray and both answers, to run it again.
+std::string describe(const Judge& judge, const trace::Ray& ray, std::uint32_t flags, const trace::Hit& hit);
+
+} // namespace spa::test
