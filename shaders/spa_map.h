@@ -49,7 +49,8 @@ SPA_BEGIN
 #define SPA_LATLONG 1u
 #define SPA_OCTAHEDRAL 2u
 
-// Nodes hold two ranges of W (two words), not one.
+// Nodes hold two ranges of W, two words of two codes each. Without it everything solid reaches the centre,
+// and a node is one word, the float at which it begins.
 #define SPA_MAP_TWO_RANGES 1u
 
 // For each surface: where its colours (rgba8) are, their width and height, and the same of the normals (two

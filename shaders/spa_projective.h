@@ -216,8 +216,13 @@ SPA_FUNCTION bool spa_walk(SpaMap map, SpaStretch stretch, uint flags, SPA_INOUT
         if (!meets) {
             uint node = map.nodes + words * spa_node(map.levels - level, (x ^ stretch.flip_x) >> level,
                                                      (y ^ stretch.flip_y) >> level);
-            meets = spa_meets(map, spa_load(map.words, node), low, high);
-            if (!meets && words == 2u) meets = spa_meets(map, spa_load(map.words, node + 1u), low, high);
+            uint range = spa_load(map.words, node);
+            if (words == 1u) {
+                meets = high >= spa_float(range);
+            } else {
+                meets = spa_meets(map, range, low, high);
+                if (!meets) meets = spa_meets(map, spa_load(map.words, node + 1u), low, high);
+            }
         }
         if (meets && level > 0u) {
             level -= 1u;
@@ -236,11 +241,11 @@ SPA_FUNCTION bool spa_walk(SpaMap map, SpaStretch stretch, uint flags, SPA_INOUT
             bool climb = false;
             if (by_x) {
                 x = next_x;
-                y = max(y, min(uint(max(stretch.y0 + s1 * stretch.dy, 0.0f)), next_y - 1u));
+                y = max(y, min(uint(stretch.y0 + s1 * stretch.dy), next_y - 1u));
                 climb = ((x >> level) & 1u) == 0u;
             } else {
                 y = next_y;
-                x = max(x, min(uint(max(stretch.x0 + s1 * stretch.dx, 0.0f)), next_x - 1u));
+                x = max(x, min(uint(stretch.x0 + s1 * stretch.dx), next_x - 1u));
                 climb = ((y >> level) & 1u) == 0u;
             }
             y = min(y, last);

@@ -45,19 +45,18 @@ NodePyramid build_pyramid(const MapCells& cells, float w_core, std::uint32_t wor
     pyramid.code_shift = codes.shift;
     std::size_t total = 0;
     for (std::uint32_t bits = 0; bits <= cells.levels; ++bits) total += std::size_t(4) << (2 * bits);
-    pyramid.nodes.assign(words * total, empty_range);
+    pyramid.nodes.assign(words * total, words == 1 ? pattern(SPA_FAR) : empty_range);
     std::vector<Ranges> level = cells.ranges;
     for (std::uint32_t bits = cells.levels;; --bits) {
         const std::size_t first = shader::spa_node(bits, 0, 0);
         for (std::size_t i = 0; i < level.size(); ++i) {
-            Ranges ranges = level[i];
-            if (words == 1 && ranges.count() == 2) {
-                Ranges joined;
-                joined.add({ranges[0].low, ranges[1].high});
-                ranges = joined;
+            const Ranges& ranges = level[i];
+            if (words == 1) {
+                if (ranges.count() > 0) pyramid.nodes[first + i] = pattern(ranges[0].low * (1 - margin));
+                continue;
             }
             for (unsigned n = 0; n < ranges.count(); ++n)
-                pyramid.nodes[words * (first + i) + n] = encode(codes, ranges[n]);
+                pyramid.nodes[2 * (first + i) + n] = encode(codes, ranges[n]);
         }
         if (bits == 0) break;
         std::vector<Ranges> above(level.size() / 4);

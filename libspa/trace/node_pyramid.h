@@ -10,7 +10,7 @@
 namespace spa::trace {
 
 struct NodePyramid {
-    std::uint32_t words = 1; // a node: one range each
+    std::uint32_t words = 1; // of a node: 1, the float at which it begins, or 2, a range of two codes each
     std::uint32_t code_base = 0, code_shift = 0;
     std::vector<std::uint32_t> nodes;
 };

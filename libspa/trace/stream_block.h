@@ -65,6 +65,9 @@ struct ResultBlock {
     Words found; // Found
     Words x, y;  // turned cell
     Floats s0, s1;
+    // Of the job, which lies together here.
+    Floats x0, y0, w0, dx, dy, dw;
+    Words flip_x, flip_y;
 };
 
 struct StreamBlock {

@@ -44,14 +44,20 @@ HWY_INLINE void finish(const shader::SpaMap& map, const StreamBlock& block, cons
     const auto of_job = [&](const Floats& from) { return hn::GatherIndex(df, from + 0, job); };
     const auto word_of_job = [&](const Words& from) { return gather(from + 0, hn::BitCast(du, job)); };
     const std::uint32_t side = 1U << map.levels;
-    const StretchLanes stretch{of_job(jobs.x0),          of_job(jobs.y0),         of_job(jobs.w0),
-                               of_job(jobs.dx),          of_job(jobs.dy),         of_job(jobs.dw),
-                               word_of_job(jobs.flip_x), word_of_job(jobs.flip_y)};
+    const auto load = [&](const Floats& from) { return hn::LoadU(df, from + first); };
+    const StretchLanes stretch{load(results.x0),
+                               load(results.y0),
+                               load(results.w0),
+                               load(results.dx),
+                               load(results.dy),
+                               load(results.dw),
+                               hn::IfThenElseZero(real, hn::LoadU(du, results.flip_x + first)),
+                               hn::IfThenElseZero(real, hn::LoadU(du, results.flip_y + first))};
     const MF flip_x = has_bit(stretch.flip_x, 1);
     const MF flip_y = has_bit(stretch.flip_y, 1);
     const CellLanes cell{hn::IfThenElseZero(real, hn::LoadU(du, results.x + first)),
-                         hn::IfThenElseZero(real, hn::LoadU(du, results.y + first)),
-                         hn::LoadU(df, results.s0 + first), hn::LoadU(df, results.s1 + first)};
+                         hn::IfThenElseZero(real, hn::LoadU(du, results.y + first)), load(results.s0),
+                         load(results.s1)};
     const CrossLanes cross = cross_cells<with_inner>(map, stretch, cell);
     const PieceLanes& piece = cross.piece;
 

@@ -4,6 +4,8 @@
 
 #include "ray.h"
 
+#include <cstring>
+
 #if defined(SPA_STREAM_SETUP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPA_STREAM_SETUP_INL
 #undef SPA_STREAM_SETUP_INL
@@ -49,24 +51,51 @@ struct CoordinateLanes {
     }
 };
 
+struct RayLanes {
+    VectorLanes origin;
+    VF t_min;
+    VectorLanes direction;
+    VF t_max;
+};
+
+// A vector of rays that lie one behind the other.
+HWY_INLINE RayLanes load_rays(const float* words) {
+#if HWY_TARGET == HWY_SCALAR
+    const auto at = [&](int index) { return hn::Load(df, words + index); };
+    return {{at(0), at(1), at(2)}, at(3), {at(4), at(5), at(6)}, at(7)};
+#else
+    // Each of the two loads takes half of the rays, its lanes origin and direction by turns.
+    RayLanes low, high;
+    hn::LoadInterleaved4(df, words, low.origin.x, low.origin.y, low.origin.z, low.t_min);
+    hn::LoadInterleaved4(df, words + 4 * hn::Lanes(df), high.origin.x, high.origin.y, high.origin.z,
+                         high.t_min);
+    const auto even = [](VF a, VF b) { return hn::ConcatEven(df, b, a); };
+    const auto odd = [](VF a, VF b) { return hn::ConcatOdd(df, b, a); };
+    const VectorLanes& a = low.origin;
+    const VectorLanes& b = high.origin;
+    return {{even(a.x, b.x), even(a.y, b.y), even(a.z, b.z)},
+            even(low.t_min, high.t_min),
+            {odd(a.x, b.x), odd(a.y, b.y), odd(a.z, b.z)},
+            odd(low.t_min, high.t_min)};
+#endif
+}
+
 // The chords of the rays that meet the map's sphere.
 inline void find_chords(const shader::SpaMap& map, const Ray* rays, std::size_t count, ChordBlock& chords) {
     static_assert(sizeof(Ray) == 8 * sizeof(float));
     const std::size_t lane_count = hn::Lanes(df);
-    const auto* const words = reinterpret_cast<const float*>(rays);
+    HWY_ALIGN float last_rays[hn::MaxLanes(df) * 8] = {};
     const VF radius = hn::Set(df, map.radius);
     const VF zero = hn::Zero(df);
     std::size_t n = 0;
     for (std::size_t first = 0; first < count; first += lane_count) {
-        // Lanes behind the last ray read it again.
-        const VU ray = hn::Min(hn::Iota(du, std::uint32_t(first)), hn::Set(du, std::uint32_t(count - 1)));
-        const VI place = hn::BitCast(di, hn::ShiftLeft<3>(ray));
-        const auto member = [&](int index) { return hn::GatherIndex(df, words + index, place); };
-        const VectorLanes origin{member(0), member(1), member(2)};
-        const VF ray_min = member(3);
-        const VectorLanes direction{member(4), member(5), member(6)};
-        const VF ray_max = member(7);
-
+        const float* words = reinterpret_cast<const float*>(rays + first);
+        if (count - first < lane_count) {
+            // A vector must not be loaded from behind the last ray.
+            std::memcpy(last_rays, words, (count - first) * sizeof(Ray));
+            words = last_rays;
+        }
+        const auto [origin, ray_min, direction, ray_max] = load_rays(words);
         const VF dd = dot(direction, direction);
         VF foot_t = hn::Div(hn::Neg(dot(origin, direction)), dd);
         VectorLanes foot = along(origin, direction, foot_t);
@@ -103,7 +132,7 @@ inline void find_chords(const shader::SpaMap& map, const Ray* rays, std::size_t 
         const VF cz = z.crossing(t0, t1);
         const VF low = hn::Min(cx, cy);
         const VF high = hn::Max(cx, cy);
-        append(ray, hn::RebindMask(du, meets), chords.ray + n);
+        append(hn::Iota(du, std::uint32_t(first)), hn::RebindMask(du, meets), chords.ray + n);
         append(foot.x, meets, chords.foot_x + n);
         append(foot.y, meets, chords.foot_y + n);
         append(foot.z, meets, chords.foot_z + n);

@@ -140,19 +140,21 @@ HWY_INLINE ExitLanes exits(const WalkLanes& lanes) {
 
 // Moves the lanes of `mask` on to the next node.
 HWY_INLINE void advance(const WalkConstants& constants, const ExitLanes& e, MU mask, WalkLanes& lanes) {
-    const VF zero = hn::Zero(df);
     const VU one = hn::Set(du, 1);
-    const MU by_x = hn::RebindMask(du, hn::Le(e.exit_x, e.exit_y));
+    const MF by_x = hn::Le(e.exit_x, e.exit_y);
+    const MU by_x_u = hn::RebindMask(du, by_x);
     const StretchLanes& stretch = lanes.stretch;
-    const VU at_x = to_words(hn::Max(hn::Add(stretch.x0, hn::Mul(e.s1, stretch.dx)), zero));
-    const VU at_y = to_words(hn::Max(hn::Add(stretch.y0, hn::Mul(e.s1, stretch.dy)), zero));
-    const VU x = hn::IfThenElse(by_x, e.next_x, hn::Max(lanes.x, hn::Min(at_x, hn::Sub(e.next_x, one))));
-    const VU y = hn::IfThenElse(by_x, hn::Max(lanes.y, hn::Min(at_y, hn::Sub(e.next_y, one))), e.next_y);
-    const VU moved = hn::IfThenElse(by_x, x, y);
-    const MU climbs = hn::And(mask, hn::Eq(hn::And(hn::Shr(moved, lanes.level), one), hn::Zero(du)));
+    // The coordinate that does not pass a border.
+    const VF start = hn::IfThenElse(by_x, stretch.y0, stretch.x0);
+    const VF change = hn::IfThenElse(by_x, stretch.dy, stretch.dx);
+    const VU least = hn::IfThenElse(by_x_u, lanes.y, lanes.x);
+    const VU most = hn::Sub(hn::IfThenElse(by_x_u, e.next_y, e.next_x), one);
+    const VU along = hn::Max(least, hn::Min(to_words(hn::Add(start, hn::Mul(e.s1, change))), most));
+    const VU passed = hn::IfThenElse(by_x_u, e.next_x, e.next_y);
+    const MU climbs = hn::And(mask, hn::Eq(hn::And(hn::Shr(passed, lanes.level), one), hn::Zero(du)));
     lanes.level = hn::IfThenElse(climbs, hn::Min(hn::Add(lanes.level, one), constants.top), lanes.level);
-    lanes.x = hn::IfThenElse(mask, hn::Min(x, constants.last), lanes.x);
-    lanes.y = hn::IfThenElse(mask, hn::Min(y, constants.last), lanes.y);
+    lanes.x = hn::IfThenElse(mask, hn::Min(hn::IfThenElse(by_x_u, passed, along), constants.last), lanes.x);
+    lanes.y = hn::IfThenElse(mask, hn::Min(hn::IfThenElse(by_x_u, along, passed), constants.last), lanes.y);
     lanes.s = hn::IfThenElse(hn::RebindMask(df, mask), e.s1, lanes.s);
 }
 
@@ -169,16 +171,15 @@ HWY_INLINE MU meets(const WalkConstants& constants, const WalkLanes& lanes, VF s
     const VF wa = hn::Add(stretch.w0, hn::Mul(lanes.s, stretch.dw));
     const VF wb = hn::Add(stretch.w0, hn::Mul(s1, stretch.dw));
     const VF high = hn::Max(wa, wb);
-    const VU low_code = hn::Set(du, 0xFFFF);
-    const auto decode = [&](VU code) {
-        return hn::BitCast(df, hn::Add(constants.code_base, hn::ShiftLeftSame(code, constants.code_shift)));
-    };
     if constexpr (!with_inner) {
-        // What is solid reaches the centre.
-        const VU range = gather(constants.nodes, node);
-        return hn::RebindMask(du, hn::Ge(high, decode(hn::And(range, low_code))));
+        return hn::RebindMask(du, hn::Ge(high, hn::BitCast(df, gather(constants.nodes, node))));
     } else {
         const VF low = hn::Min(wa, wb);
+        const VU low_code = hn::Set(du, 0xFFFF);
+        const auto decode = [&](VU code) {
+            return hn::BitCast(df,
+                               hn::Add(constants.code_base, hn::ShiftLeftSame(code, constants.code_shift)));
+        };
         const VU place = hn::Add(node, node);
         const VU first = gather(constants.nodes, place);
         const VU second = gather(constants.nodes + 1, place);
@@ -261,6 +262,15 @@ HWY_INLINE MU cross(const shader::SpaMap& map, const WalkConstants& constants, c
     append(lanes.y, found, results.y + n);
     append(lanes.s, found_f, results.s0 + n);
     append(s1, found_f, results.s1 + n);
+    const StretchLanes& stretch = lanes.stretch;
+    append(stretch.x0, found_f, results.x0 + n);
+    append(stretch.y0, found_f, results.y0 + n);
+    append(stretch.w0, found_f, results.w0 + n);
+    append(stretch.dx, found_f, results.dx + n);
+    append(stretch.dy, found_f, results.dy + n);
+    append(stretch.dw, found_f, results.dw + n);
+    append(stretch.flip_x, found, results.flip_x + n);
+    append(stretch.flip_y, found, results.flip_y + n);
     results.count = n + hn::CountTrue(du, found);
     return found;
 }
