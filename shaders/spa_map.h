@@ -3,6 +3,7 @@
 // places are indices of words from the header's first, so an image may lie anywhere.
 //
 //   nodes      bounds of the surface, a pyramid over each quadrant of the octahedral map (spa_projective.h)
+//   cores      for each node the W beyond which everything below it is solid; SPA_FAR: there is none
 //   samples    W of every sample and surface: 1/|q|_1 of the stored point q (map space); SPA_FAR = none;
 //              as an inner end: the centre is reached. Plane by plane: outer 0, inner 0, outer 1, ...
 //   cells      one word a cell, as the nodes' last level: 0 = both triangles are pure, else where its two
@@ -43,7 +44,9 @@ SPA_BEGIN
 
 #define SPA_HEADER_BOX 18u // 6 floats: the box around the stored surface, lowest x, y, z, highest x, y, z
 
-#define SPA_HEADER_WORDS 24u
+#define SPA_HEADER_CORES 24u // 0: there are none
+
+#define SPA_HEADER_WORDS 25u
 #define SPA_MAGIC 0x54415053u // "SPAT"
 
 #define SPA_LATLONG 1u
@@ -101,6 +104,7 @@ struct SpaMap {
     uint code_shift;
     float w_core;
     uint nodes;
+    uint cores;
     uint samples;
     uint cells;
     uint prisms;
@@ -124,6 +128,7 @@ SPA_FUNCTION SpaMap spa_open(SpaWords words) {
     map.code_shift = spa_load(words, SPA_HEADER_CODE_SHIFT);
     map.w_core = spa_float(spa_load(words, SPA_HEADER_W_CORE));
     map.nodes = spa_load(words, SPA_HEADER_NODES);
+    map.cores = spa_load(words, SPA_HEADER_CORES);
     map.samples = spa_load(words, SPA_HEADER_SAMPLES);
     map.cells = spa_load(words, SPA_HEADER_CELLS);
     map.prisms = spa_load(words, SPA_HEADER_PRISMS);

@@ -201,8 +201,7 @@ SPA_FUNCTION bool spa_walk(SpaMap map, SpaStretch stretch, uint flags, SPA_INOUT
     // x + y grows with every step that does not go down.
     uint bound = 2u * (last + 2u) * (top + 2u);
     for (uint step = 0u; step < bound; step += 1u) {
-        // In the solid the nodes say nothing about where it ends.
-        if (state != SPA_OUTSIDE) level = 0u;
+        if (state == SPA_UNKNOWN || (state == SPA_INSIDE && map.cores == 0u)) level = 0u;
         uint next_x = ((x >> level) + 1u) << level;
         uint next_y = ((y >> level) + 1u) << level;
         float exit_x = (float(next_x) - stretch.x0) * per_x;
@@ -212,17 +211,21 @@ SPA_FUNCTION bool spa_walk(SpaMap map, SpaStretch stretch, uint flags, SPA_INOUT
         float wb = stretch.w0 + s1 * stretch.dw;
         float low = min(wa, wb);
         float high = max(wa, wb);
-        bool meets = state != SPA_OUTSIDE;
-        if (!meets) {
-            uint node = map.nodes + words * spa_node(map.levels - level, (x ^ stretch.flip_x) >> level,
-                                                     (y ^ stretch.flip_y) >> level);
-            uint range = spa_load(map.words, node);
+        // Whether the node has something to look for: an end of the solid, from outside or from inside.
+        bool meets = true;
+        uint node =
+            spa_node(map.levels - level, (x ^ stretch.flip_x) >> level, (y ^ stretch.flip_y) >> level);
+        if (state == SPA_OUTSIDE) {
+            uint range = spa_load(map.words, map.nodes + words * node);
             if (words == 1u) {
                 meets = high >= spa_float(range);
             } else {
                 meets = spa_meets(map, range, low, high);
-                if (!meets) meets = spa_meets(map, spa_load(map.words, node + 1u), low, high);
+                if (!meets)
+                    meets = spa_meets(map, spa_load(map.words, map.nodes + words * node + 1u), low, high);
             }
+        } else if (state == SPA_INSIDE && map.cores != 0u) {
+            meets = low < spa_float(spa_load(map.words, map.cores + node));
         }
         if (meets && level > 0u) {
             level -= 1u;

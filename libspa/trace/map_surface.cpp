@@ -75,6 +75,7 @@ public:
         cells_count_ = (samples.grid.width - 1) / 2;
         result_.levels = std::max(1U, std::uint32_t(std::bit_width(cells_count_ - 1)));
         result_.ranges.resize(std::size_t(4) << (2 * result_.levels));
+        result_.cores.resize(result_.ranges.size()); // padding keeps nobody from skipping
         find_extent();
     }
 
@@ -132,6 +133,12 @@ private:
         return (std::to_integer<unsigned>(part_.mixed[bit / 8]) >> (bit % 8) & 1U) != 0;
     }
 
+    // Where the interval that reaches the centre begins.
+    [[nodiscard]] float core_at(TexelIndex texel) const {
+        const std::uint32_t n = intervals_at(texel);
+        return n > 0 && w_of(2 * n - 1, texel) >= far_w ? w_of(2 * n - 2, texel) : far_w;
+    }
+
     // What lies around the centre in the directions of a corner, or of a triangle that has the same there.
     void see_core(TexelIndex texel) {
         const std::uint32_t n = intervals_at(texel);
@@ -146,14 +153,21 @@ private:
         const std::size_t cell = row * 2 * side + column;
         std::array<MapTriangle, 2> triangles;
         std::array<bool, 2> mixed{};
+        float core = 0;
         for (std::uint32_t beyond = 0; beyond < 2; ++beyond) {
             triangles[beyond] = {quadrant, x, y, beyond};
             const std::array<Corner, 3> corners = corners_of(samples_.grid, triangles[beyond]);
             for (const Corner& corner : corners) see_core(corner.texel);
             mixed[beyond] = is_mixed(triangles[beyond], corners);
-            if (!mixed[beyond]) add_pure(corners, result_.ranges[cell]);
+            if (!mixed[beyond]) {
+                add_pure(corners, result_.ranges[cell]);
+                for (const Corner& corner : corners) core = std::max(core, core_at(corner.texel));
+            }
         }
-        if (!mixed[0] && !mixed[1]) return;
+        if (!mixed[0] && !mixed[1]) {
+            result_.cores[cell] = core;
+            return;
+        }
         if (result_.lists.empty()) begin_lists();
         const std::size_t entry = result_.lists.size();
         result_.cells[cell] = std::uint32_t(entry);
@@ -161,11 +175,12 @@ private:
         for (std::uint32_t beyond = 0; beyond < 2; ++beyond) {
             const std::size_t first = result_.lists.size();
             std::uint32_t count = SPA_PURE;
-            if (mixed[beyond]) count = add_mixed(triangles[beyond], result_.ranges[cell]);
+            if (mixed[beyond]) count = add_mixed(triangles[beyond], result_.ranges[cell], core);
             result_.lists[entry + 2 * std::size_t(beyond)] = std::uint32_t(first);
             result_.lists[entry + 2 * std::size_t(beyond) + 1] = count;
             result_.places.push_back(std::uint32_t(entry + 2 * std::size_t(beyond)));
         }
+        result_.cores[cell] = core;
     }
 
     void begin_lists() {
@@ -245,18 +260,23 @@ private:
         return {slope.u * scale, slope.v * scale};
     }
 
-    std::uint32_t add_mixed(const MapTriangle& t, Ranges& ranges) {
+    std::uint32_t add_mixed(const MapTriangle& t, Ranges& ranges, float& core) {
         const std::array<Corner, 3> corners = corners_of(samples_.grid, t);
         std::uint32_t count = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t n = intervals_at(corners[i].texel);
-            for (std::uint32_t k = 0; k < n; ++k, ++count) add_region(t, corners, i, k, ranges);
+            if (core_at(corners[i].texel) >= far_w) core = far_w;
+            for (std::uint32_t k = 0; k < n; ++k, ++count) {
+                const float highest = add_region(t, corners, i, k, ranges);
+                if (k == n - 1) core = std::max(core, highest);
+            }
         }
         return count;
     }
 
-    void add_region(const MapTriangle& t, const std::array<Corner, 3>& corners, std::size_t index,
-                    std::uint32_t k, Ranges& ranges) {
+    // Gives back the highest w of the outer end.
+    float add_region(const MapTriangle& t, const std::array<Corner, 3>& corners, std::size_t index,
+                     std::uint32_t k, Ranges& ranges) {
         const Corner& corner = corners[index];
         const std::array<Slope, 4> offsets = region_offsets(corners, index);
         const double outer = double(w_of(2 * k, corner.texel));
@@ -270,14 +290,16 @@ private:
                 break;
             }
         Range range{far_w, 0};
+        float highest = 0;
         for (const Slope& offset : offsets) {
+            highest = std::max(highest, float(outer + change(outer_slope, offset)));
             range.low = std::min(range.low, float(outer + change(outer_slope, offset)));
             range.high = std::max(range.high, to_center ? far_w : float(inner + change(inner_slope, offset)));
-            result_.w_max = std::max(result_.w_max, float(outer + change(outer_slope, offset)));
             extend(point_at(corner, offset, t, outer + change(outer_slope, offset)));
         }
         ranges.add(range);
         result_.w_min = std::min(result_.w_min, range.low);
+        result_.w_max = std::max(result_.w_max, highest);
         if (!to_center) result_.w_max = std::max(result_.w_max, range.high);
         append(plane_of(corner, outer, outer_slope));
         append(to_center ? Plane{far_w, 0, 0} : plane_of(corner, inner, inner_slope));
@@ -288,6 +310,7 @@ private:
         result_.lists.push_back(properties);
         result_.places.push_back(std::uint32_t(result_.lists.size()));
         result_.lists.push_back((3 * t.beyond + std::uint32_t(index)) * 6);
+        return highest;
     }
 
     static Plane plane_of(const Corner& corner, double w, const Slope& slope) {

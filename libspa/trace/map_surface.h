@@ -30,7 +30,8 @@ MapSamples read_samples(const Part& part, std::uint32_t layers);
 // y, upwards.
 struct MapCells {
     std::uint32_t levels = 0;
-    std::vector<Ranges> ranges;       // of w in each cell
+    std::vector<Ranges> ranges; // of w in each cell
+    std::vector<float> cores;   // the w beyond which everything in the cell is solid; SPA_FAR: there is none
     std::vector<std::uint32_t> lists; // what mixed triangles hold; empty: none is mixed
     std::vector<std::uint32_t>
         cells; // place of a cell's two (place, count) in `lists`, 0 = both triangles are pure

@@ -3,6 +3,7 @@
 
 #include "../../shaders/spa_projective.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace spa::trace {
@@ -35,6 +36,25 @@ std::uint32_t encode(const Codes& codes, const Range& range) {
     return codes.low(range.low) | codes.high(range.high) << 16U;
 }
 
+// The cells' cores and their maxima, level by level as the nodes.
+std::vector<float> build_cores(const MapCells& cells, std::size_t total) {
+    if (std::all_of(cells.cores.begin(), cells.cores.end(), [](float core) { return core >= SPA_FAR; }))
+        return {};
+    std::vector<float> cores(total, 0.0F);
+    std::size_t first = shader::spa_node(cells.levels, 0, 0);
+    for (std::size_t i = 0; i < cells.cores.size(); ++i) cores[first + i] = cells.cores[i] * (1 + margin);
+    for (std::uint32_t bits = cells.levels; bits > 0; --bits) {
+        const std::size_t above = shader::spa_node(bits - 1, 0, 0);
+        const std::size_t row = std::size_t(2) << bits;
+        for (std::size_t i = 0; i < row * row; ++i) {
+            float& core = cores[above + (i / row / 2) * (row / 2) + i % row / 2];
+            core = std::max(core, cores[first + i]);
+        }
+        first = above;
+    }
+    return cores;
+}
+
 } // namespace
 
 NodePyramid build_pyramid(const MapCells& cells, float w_core, std::uint32_t words) {
@@ -46,6 +66,7 @@ NodePyramid build_pyramid(const MapCells& cells, float w_core, std::uint32_t wor
     std::size_t total = 0;
     for (std::uint32_t bits = 0; bits <= cells.levels; ++bits) total += std::size_t(4) << (2 * bits);
     pyramid.nodes.assign(words * total, words == 1 ? pattern(SPA_FAR) : empty_range);
+    pyramid.cores = build_cores(cells, total);
     std::vector<Ranges> level = cells.ranges;
     for (std::uint32_t bits = cells.levels;; --bits) {
         const std::size_t first = shader::spa_node(bits, 0, 0);

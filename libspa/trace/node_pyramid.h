@@ -13,6 +13,7 @@ struct NodePyramid {
     std::uint32_t words = 1; // of a node: 1, the float at which it begins, or 2, a range of two codes each
     std::uint32_t code_base = 0, code_shift = 0;
     std::vector<std::uint32_t> nodes;
+    std::vector<float> cores; // one a node; empty: nowhere is everything solid to the centre
 };
 
 // words: 1 or 2. w_core: no ray reaches a greater w. A node covers everything below it, the smallest gaps

@@ -60,6 +60,7 @@ void add_cells(const Part& part, const MapSamples& samples, std::vector<std::uin
     words[SPA_HEADER_CODE_SHIFT] = pyramid.code_shift;
     words[SPA_HEADER_W_CORE] = bits(w_core);
     words[SPA_HEADER_NODES] = append(words, pyramid.nodes);
+    if (!pyramid.cores.empty()) words[SPA_HEADER_CORES] = append(words, patterns(pyramid.cores));
     words[SPA_HEADER_SAMPLES] = append(words, patterns(samples.w));
     if (cells.lists.empty()) return;
     const auto lists = std::uint32_t(words.size() + cells.cells.size());
