@@ -76,7 +76,7 @@ Verb bench_verb() {
                     "$ spa bench bake --levels 6 --only radial,embree --sizes 640x480\n"
                     "$ spa bench trace --plots plots\n"
                     "$ spa bench trace --models boot:6,chair.glb --format json > trace.json\n"
-                    "$ spa bench trace --models smooth:6 --only projective,mesh --sets chords --sizes 128",
+                    "$ spa bench trace --models smooth:6 --only projective,mesh --sets chords",
         .see_also = "spa bake, spa sample",
         .define = [](CLI::App& app) -> std::function<void()> {
             struct State {

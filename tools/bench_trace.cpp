@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_arguments.h"
+#include "bench_trace_plots.h"
 #include "bench_trace_report.h"
+#include "gnuplot.h"
 #include "interrupt.h"
 #include "map_file.h"
 #include "output.h"
@@ -108,37 +110,62 @@ measure::FileTrip through_file(const SphericalMap& map, const trace::Ray& ray, u
     return {bytes.size(), measure::spread_of(seconds)};
 }
 
+void write_file(const std::filesystem::path& path, const std::string& text) {
+    StagedFile file(path);
+    file.write(std::as_bytes(std::span(text)));
+    file.commit();
+}
+
+// The lines, the pictures and the scripts that drew them.
+void write_plots(const std::filesystem::path& path, const TraceReport& report) {
+    StagedFolder folder(path);
+    const auto write = [&](const std::string& name, const std::string& text) {
+        folder.write(name, std::as_bytes(std::span(text)));
+    };
+    write("trace.csv", report_csv(report));
+    for (const Plot& plot : trace_plots(report)) {
+        write(plot.name + ".gnuplot", plot.script);
+        folder.write(plot.name + ".png", run_gnuplot(plot.script));
+    }
+    folder.commit();
+}
+
+// What can go wrong at the end is found at the beginning.
+void check_outputs(const BenchArguments& given) {
+    if (!given.csv.empty()) check_output_file(given.csv);
+    if (given.plots.empty()) return;
+    check_output_folder(given.plots);
+    require_gnuplot();
+}
+
+TraceModel measure_model(const std::string& name, measure::TraceBenchOptions options, bool quiet) {
+    ProgressReport progress("benchmark of " + name, quiet);
+    options.through_file = through_file;
+    options.progress = [&](double share, const std::string&) {
+        progress.update(share);
+        return interrupt_signal() == 0;
+    };
+    TraceModel result{name, measure::bench_trace(load(name), options), {}};
+    result.bars = measure::trace_bars(name, result.benchmark);
+    return result;
+}
+
 } // namespace
 
 void bench_trace(const BenchArguments& given) {
-    Arguments arguments = complete(given);
-    if (!given.csv.empty()) check_output_file(given.csv);
-    if (!given.plots.empty()) check_output_folder(given.plots);
+    const Arguments arguments = complete(given);
+    check_outputs(given);
     TraceReport report;
     report.rays = arguments.bench.rays;
     report.runs = arguments.bench.runs;
+    report.threads = arguments.bench.threads;
     report.target = trace::stream_target();
     {
         const InterruptGuard guard;
-        double done = 0;
-        for (const std::string& model : arguments.models) {
-            ProgressReport progress("benchmark of " + model, given.quiet);
-            arguments.bench.through_file = through_file;
-            arguments.bench.progress = [&](double share, const std::string&) {
-                progress.update((done + share) / double(arguments.models.size()));
-                return interrupt_signal() == 0;
-            };
-            TraceModel result{model, measure::bench_trace(load(model), arguments.bench), {}};
-            result.bars = measure::trace_bars(model, result.benchmark);
-            report.models.push_back(std::move(result));
-            done += 1;
-        }
-        if (!given.csv.empty()) {
-            const std::string lines = report_csv(report);
-            StagedFile file(given.csv);
-            file.write(std::as_bytes(std::span(lines)));
-            file.commit();
-        }
+        for (const std::string& model : arguments.models)
+            report.models.push_back(measure_model(model, arguments.bench, given.quiet));
+        if (!given.csv.empty()) write_file(given.csv, report_csv(report));
+        if (!given.plots.empty()) write_plots(given.plots, report);
     }
     print(given.format == ReportFormat::json ? json_text(report_json(report)) : report_text(report));
 }

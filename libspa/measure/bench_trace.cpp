@@ -108,6 +108,8 @@ public:
             measure_set(options_.sets[i], prepare_share + (1 - prepare_share) * share,
                         (1 - prepare_share) / double(options_.sets.size()));
         }
+        std::stable_sort(result_.methods.begin(), result_.methods.end(),
+                         [](const auto& a, const auto& b) { return a.family < b.family; });
         return std::move(result_);
     }
 

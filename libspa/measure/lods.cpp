@@ -18,26 +18,22 @@ struct Mesh {
     std::vector<unsigned> indices;
 };
 
-// Unites vertices of equal position and (to a degree) normal, and drops triangles that lose their area.
+// Unites vertices of equal position, and drops triangles that lose their area.
 Mesh united(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
             std::span<const Triangle> triangles) {
     constexpr float same_normal = 0.9998F; // cosine
     const std::vector<std::uint32_t> first = weld_positions(positions);
     Mesh mesh;
     std::vector<std::uint32_t> vertex_of(positions.size());
-    std::vector<std::uint32_t> next; // of those at one position: a list, from the newest to the oldest
-    std::vector<std::uint32_t> newest(positions.size(), no_index);
     for (std::size_t v = 0; v < positions.size(); ++v) {
-        std::uint32_t same = newest[first[v]];
-        while (same != no_index && dot(mesh.normals[same], normals[v]) < same_normal) same = next[same];
-        if (same == no_index) {
-            same = std::uint32_t(mesh.positions.size());
+        if (first[v] == v) {
+            vertex_of[v] = std::uint32_t(mesh.positions.size());
             mesh.positions.push_back(positions[v]);
             mesh.normals.push_back(normals[v]);
-            next.push_back(newest[first[v]]);
-            newest[first[v]] = same;
+            continue;
         }
-        vertex_of[v] = same;
+        vertex_of[v] = vertex_of[first[v]];
+        if (dot(normals[first[v]], normals[v]) < same_normal) mesh.normals[vertex_of[v]] = {};
     }
     for (const Triangle& t : triangles) {
         const unsigned a = vertex_of[t.vertex[0]], b = vertex_of[t.vertex[1]], c = vertex_of[t.vertex[2]];

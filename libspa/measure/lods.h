@@ -16,13 +16,13 @@ struct Lod {
     double error = 0;        // what the simplifier says it made, by its own measure
     // Without unused and repeated vertices, in an order that is good for caches.
     std::vector<Vec3f> positions;
-    std::vector<Vec3f> normals;
+    std::vector<Vec3f> normals; // zero where the model has a crease: several at one place
     std::vector<Triangle> triangles;
 };
 
 // One a target error, in their order: as few triangles as meshoptimizer's edge collapses (quadrics; Garland
-// and Heckbert 1997) reach within it. Vertices that are equal in position and normal are united first, so
-// that texture seams do not hold it up; creases, where normals differ, stay. Colours are not looked at.
+// and Heckbert 1997) reach within it. Vertices of equal position are united first, so that neither texture
+// seams nor creases hold it up: distances are what counts. Colours are not looked at.
 //
 // normals: one a position. target_errors: descending, > 0. A mesh of more than 300,000 triangles is first
 // simplified to a sixteenth of the smallest target error, and all steps start from that: the difference

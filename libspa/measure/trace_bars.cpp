@@ -83,11 +83,10 @@ private:
         const std::optional<double> ours = ns(map, CallKind::stream);
         const auto lod = equal_lod(benchmark_, mean_distance(map), threads);
         if (!ours || !lod) return;
-        add("stream against the LOD of equal error", map, lod->ns / *ours, limit, true, "times")
-            .rival_missed = lod->missed;
+        add("stream against the equal LOD", map, lod->ns / *ours, limit, true, "times").rival_missed =
+            lod->missed;
         if (bytes_too)
-            add("bytes against the LOD of equal error", map, lod->bytes / double(map.bytes), 20, true,
-                "times")
+            add("bytes against the equal LOD", map, lod->bytes / double(map.bytes), 20, true, "times")
                 .rival_missed = lod->missed;
     }
 

@@ -92,8 +92,8 @@ public:
 std::unique_ptr<TraceMethod> map_method(Family family, const Part& part, std::uint32_t layers,
                                         std::uint32_t tests);
 
-// Of triangles. normals: one a position, to interpolate in answers; empty: answers have geometric ones.
-// Builds in the caller's arena; seconds of the build are in build_seconds.
+// Of triangles. normals: one a position, to interpolate in answers; empty, or a corner's is zero: the
+// geometric one. Builds in the caller's arena; seconds of the build are in build_seconds.
 std::unique_ptr<TraceMethod> triangle_method(Family family, std::span<const Vec3f> positions,
                                              std::span<const Vec3f> normals,
                                              std::span<const Triangle> triangles, double& build_seconds);

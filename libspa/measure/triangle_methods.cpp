@@ -62,7 +62,7 @@ public:
             const trace::Hit hit = rays.hit(i);
             answers[i] = answer_of(hit);
             if (hit.valid() && !normals_.empty())
-                answers[i].normal = interpolated(rays.triangle(i), rays.barycentric(i));
+                interpolate(rays.triangle(i), rays.barycentric(i), answers[i].normal);
         }
         return answers;
     }
@@ -86,9 +86,12 @@ private:
             peer_.closest_hits(rays, begin, end);
     }
 
-    [[nodiscard]] Vec3f interpolated(std::uint32_t triangle, Vec2f at) const {
+    // Leaves the geometric normal at a corner that has none.
+    void interpolate(std::uint32_t triangle, Vec2f at, Vec3f& normal) const {
         const auto& v = corners_[triangle].vertex;
-        return normals_[v[0]] * (1 - at.x - at.y) + normals_[v[1]] * at.x + normals_[v[2]] * at.y;
+        for (const std::uint32_t corner : v)
+            if (normals_[corner] == Vec3f{}) return;
+        normal = normals_[v[0]] * (1 - at.x - at.y) + normals_[v[1]] * at.x + normals_[v[2]] * at.y;
     }
 
     trace::EmbreePeer peer_;
