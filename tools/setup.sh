@@ -40,6 +40,7 @@ LIST
     test)
         # The last five: the tracing text on the GPU, which is Mesa's software Vulkan.
         cat <<'LIST'
+gnuplot-nox
 libgtest-dev
 nodejs:node
 npm:npm
