@@ -36,9 +36,6 @@ struct HitSink {
         hit.layer = found.layer[lane];
         hit.side = found.inner[lane] != 0 ? HitSide::inner : HitSide::outer;
     }
-    void trace(const TraceMap& map, const Ray& ray, std::uint32_t flags, std::size_t index) const {
-        closest_hit(map, ray, flags, hits[index]);
-    }
 };
 
 struct OcclusionSink {
@@ -47,12 +44,9 @@ struct OcclusionSink {
 
     void clear(std::size_t count) const { std::fill_n(blocked, count, std::uint8_t(0)); }
     void put(std::size_t ray) const { blocked[ray] = 1; }
-    void trace(const TraceMap& map, const Ray& ray, std::uint32_t flags, std::size_t index) const {
-        blocked[index] = occluded(map, ray, flags) ? 1 : 0;
-    }
 };
 
-// What is not a hit on a pure cell: the text looks at the one cell, or traces the ray.
+// What is not a plain hit on a pure cell: the text looks at the one cell again.
 template <class Sink>
 void finish_by_text(const TraceMap& map, const StreamBlock& block, std::size_t result, const Ray* rays,
                     std::uint32_t flags, const Sink& sink) {
@@ -60,17 +54,13 @@ void finish_by_text(const TraceMap& map, const StreamBlock& block, std::size_t r
     const std::size_t job = results.job[result];
     const std::size_t chord = block.stretches.chord[job];
     const std::size_t ray = block.chords.ray[chord];
-    if (Found(results.found[result]) == Found::unusual) {
-        sink.trace(map, rays[ray], flags, ray);
-        return;
-    }
     if constexpr (Sink::wants_record) {
         const shader::SpaStretch stretch = load_stretch(map.map(), block.stretches, job);
         shader::SpaEvent event{};
         shader::SpaPiece piece{};
         shader::SpaTriangle tri{};
-        // A ray that may start in the solid does not, or it would be unusual.
-        shader::uint state = SPA_OUTSIDE;
+        const bool from_outside = Found(results.found[result]) == Found::surface;
+        shader::uint state = from_outside ? SPA_OUTSIDE : results.found[result] - std::uint32_t(Found::event);
         shader::spa_cross_cell(map.map(), stretch, results.x[result], results.y[result], results.s0[result],
                                results.s1[result], flags, state, event, piece, tri);
         const ChordBlock& chords = block.chords;
@@ -117,7 +107,7 @@ void trace_blocks(const TraceMap& map, const Ray* rays, std::size_t count, std::
         for (std::size_t pass = 0; pass < 4; ++pass) {
             find_stretches(map.map(), pass, block.chords, block.stretches);
             if (block.stretches.count == 0) continue;
-            walk<with_inner>(map.map(), block.stretches, block.results);
+            walk<with_inner>(map.map(), flags, block);
             finish_pass<with_inner>(map, block, rays + first, flags, sink);
         }
         if constexpr (Sink::wants_record)
@@ -154,18 +144,9 @@ HWY_EXPORT(hits_of_stream);
 HWY_EXPORT(occlusion_of_stream);
 HWY_EXPORT(target_name);
 
-namespace {
-
-// What the vectors do not know: maps without a walk, and rays that look for back faces alone.
-bool is_for_text(const TraceMap& map, std::uint32_t flags) {
-    return map.map().mapping != SPA_OCTAHEDRAL || (flags & SPA_CULL_FRONT) != 0;
-}
-
-} // namespace
-
 void closest_hits(const TraceMap& map, std::span<const Ray> rays, std::uint32_t flags, std::span<Hit> hits) {
-    if (is_for_text(map, flags)) {
-        for (std::size_t i = 0; i < rays.size(); ++i) closest_hit(map, rays[i], flags, hits[i]);
+    if (map.map().mapping != SPA_OCTAHEDRAL) {
+        std::fill(hits.begin(), hits.end(), Hit{});
         return;
     }
     HWY_DYNAMIC_DISPATCH(hits_of_stream)(map, rays.data(), rays.size(), flags, hits.data());
@@ -173,8 +154,8 @@ void closest_hits(const TraceMap& map, std::span<const Ray> rays, std::uint32_t 
 
 void occluded(const TraceMap& map, std::span<const Ray> rays, std::uint32_t flags,
               std::span<std::uint8_t> blocked) {
-    if (is_for_text(map, flags)) {
-        for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = occluded(map, rays[i], flags) ? 1 : 0;
+    if (map.map().mapping != SPA_OCTAHEDRAL) {
+        std::fill(blocked.begin(), blocked.end(), std::uint8_t(0));
         return;
     }
     HWY_DYNAMIC_DISPATCH(occlusion_of_stream)(map, rays.data(), rays.size(), flags, blocked.data());

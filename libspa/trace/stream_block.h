@@ -36,8 +36,8 @@ struct ChordBlock {
     Floats foot_x, foot_y, foot_z, foot_t, direction_x, direction_y, direction_z;
     Floats cross_x, cross_y, cross_z; // times, clamped to the chord
     Floats time[5];                   // t0, the same times ascending, t1
-    Words unknown;                    // all bits: whether the ray starts in the solid is to be found out
-    Words done;                       // all bits: nothing more to trace
+    Words state; // SPA_OUTSIDE, SPA_INSIDE or SPA_UNKNOWN: what spa_walk takes and leaves
+    Words done;  // all bits: nothing more to trace
 };
 
 // Stretches to walk (SpaStretch): the jobs of one pass. place: where the walk begins.
@@ -48,21 +48,21 @@ struct StretchBlock {
     Floats x0, y0, w0, dx, dy, dw, per_x, per_y, ta, tb;
     Words flip_x, flip_y;
     Words x, y;
-    Words lower;   // all bits: z is negative
-    Words unknown; // all bits: whether the ray starts in the solid is to be found out at the first cell
+    Words lower;            // all bits: z is negative
+    Words state;            // where the walk begins
+    bool any_state = false; // not all begin outside
 };
 
 enum class Found : std::uint32_t {
-    surface, // in a pure cell: what finish can fill by vectors
-    event,   // anything else in one cell: the text fills it
-    unusual, // the ray starts in the solid, or goes through an open wall: the text traces it from the start
+    surface, // entered by a surface in a pure cell: what finish can fill by vectors
+    event,   // anything else in one cell: the text fills it. event + state: of the ray before the cell
 };
 
 // What was found, in no particular order.
 struct ResultBlock {
     std::size_t count = 0;
     Words job;
-    Words found; // Found
+    Words found; // Found, or Found::event + state
     Words x, y;  // turned cell
     Floats s0, s1;
     // Of the job, which lies together here.

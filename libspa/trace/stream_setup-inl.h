@@ -148,8 +148,9 @@ inline void find_chords(const shader::SpaMap& map, const Ray* rays, std::size_t 
         append(hn::Max(low, hn::Min(high, cz)), meets, chords.time[2] + n);
         append(hn::Max(high, cz), meets, chords.time[3] + n);
         append(t1, meets, chords.time[4] + n);
-        append(hn::VecFromMask(du, hn::RebindMask(du, unknown)), hn::RebindMask(du, meets),
-               chords.unknown + n);
+        append(
+            hn::IfThenElse(hn::RebindMask(du, unknown), hn::Set(du, SPA_UNKNOWN), hn::Set(du, SPA_OUTSIDE)),
+            hn::RebindMask(du, meets), chords.state + n);
         hn::StoreU(hn::Zero(du), du, chords.done + n);
         n += more;
     }
@@ -180,6 +181,7 @@ inline void find_stretches(const shader::SpaMap& map, std::size_t pass, ChordBlo
     const VF tiny = hn::Set(df, 1e-20F);
     const VU low_bits = hn::Set(du, (1U << map.levels) - 1);
     const VU high_bit = hn::Set(du, 1U << map.levels);
+    VU states = hn::Set(du, SPA_OUTSIDE);
     std::size_t n = 0;
     for (std::size_t first = 0; first < chords.count; first += lane_count) {
         const VF ta = hn::LoadU(df, chords.time[pass] + first);
@@ -244,11 +246,11 @@ inline void find_stretches(const shader::SpaMap& map, std::size_t pass, ChordBlo
         const VF yb = coordinate(b.y, b.z, wb);
         const MF turn_x = hn::Lt(xb, xa);
         const MF turn_y = hn::Lt(yb, ya);
-        const auto begin = [&](MF turn, VF p) {
+        const auto start_of = [&](MF turn, VF p) {
             return hn::IfThenElse(turn, hn::Min(hn::Sub(side, p), last), p);
         };
-        const VF x0 = begin(turn_x, xa);
-        const VF y0 = begin(turn_y, ya);
+        const VF x0 = start_of(turn_x, xa);
+        const VF y0 = start_of(turn_y, ya);
         const auto change = [&](MF turn, VF p, VF from) {
             return hn::Max(hn::Sub(hn::IfThenElse(turn, hn::Sub(side, p), p), from), zero);
         };
@@ -258,7 +260,6 @@ inline void find_stretches(const shader::SpaMap& map, std::size_t pass, ChordBlo
             return hn::Or(hn::IfThenElseZero(hn::RebindMask(du, turn), low_bits),
                           hn::IfThenElseZero(hn::RebindMask(du, negative), high_bit));
         };
-        const VU unknown_bits = hn::LoadU(du, chords.unknown + first);
         const MU outside_u = hn::RebindMask(du, outside);
         append(hn::Iota(du, std::uint32_t(first)), outside_u, jobs.chord + n);
         append(x0, outside, jobs.x0 + n);
@@ -276,12 +277,15 @@ inline void find_stretches(const shader::SpaMap& map, std::size_t pass, ChordBlo
         append(to_words(x0), outside_u, jobs.x + n);
         append(to_words(y0), outside_u, jobs.y + n);
         append(hn::VecFromMask(du, hn::RebindMask(du, lower)), outside_u, jobs.lower + n);
-        append(unknown_bits, outside_u, jobs.unknown + n);
-        // Whether it starts in the solid is found out on a ray's first stretch.
-        hn::StoreU(hn::IfThenZeroElse(outside_u, unknown_bits), du, chords.unknown + first);
+        const VU state = hn::LoadU(du, chords.state + first);
+        append(state, outside_u, jobs.state + n);
+        states = hn::Or(states, hn::IfThenElseZero(outside_u, state));
+        // A walk leaves a ray outside if it does not say otherwise.
+        hn::StoreU(hn::IfThenElse(outside_u, hn::Set(du, SPA_OUTSIDE), state), du, chords.state + first);
         n += more;
     }
     jobs.count = n;
+    jobs.any_state = !hn::AllTrue(du, hn::Eq(states, hn::Set(du, SPA_OUTSIDE)));
     // Vectors are loaded whole, also of what lies behind the last job.
     for (std::size_t i = 0; i < n + lane_count; i += lane_count)
         hn::StoreU(hn::Iota(du, std::uint32_t(i)), du, jobs.number + i);

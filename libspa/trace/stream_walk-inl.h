@@ -43,6 +43,8 @@ HWY_INLINE V expand(V old, MU mask, const T* from) {
 struct WalkConstants {
     const std::uint32_t* nodes = nullptr;
     const std::uint32_t* cells = nullptr; // none: no cell is mixed
+    const float* cores = nullptr;         // none: in the solid every cell is looked at
+    std::uint32_t flags = 0;
     VU levels, start, top;
     VU last; // cell of a quadrant
     VU code_base;
@@ -50,10 +52,12 @@ struct WalkConstants {
     std::size_t lanes = 0, enough_waiting = 0, enough_free = 0;
 };
 
-HWY_INLINE WalkConstants walk_constants(const shader::SpaMap& map) {
+HWY_INLINE WalkConstants walk_constants(const shader::SpaMap& map, std::uint32_t flags) {
     WalkConstants constants;
     constants.nodes = map.words.first + map.nodes;
     constants.cells = map.cells == 0 ? nullptr : map.words.first + map.cells;
+    constants.cores = map.cores == 0 ? nullptr : reinterpret_cast<const float*>(map.words.first + map.cores);
+    constants.flags = flags;
     constants.levels = hn::Set(du, map.levels);
     constants.start = hn::Set(du, map.levels > SPA_START_BITS ? map.levels - SPA_START_BITS : 0);
     constants.top = hn::Set(du, map.levels > SPA_TOP_BITS ? map.levels - SPA_TOP_BITS : 0);
@@ -72,8 +76,9 @@ struct WalkLanes {
     VU x, y, level;
     VF s;
     VU job;
-    MU alive, waits,
-        unknown; // waits: at a cell; unknown: at the first cell of a ray that may begin in the solid
+    MU alive, waits;    // waits: at a cell
+    MU inside, unknown; // the states; unknown: at a ray's first cell
+    bool any_inside = false;
     std::size_t count = 0; // alive
 };
 
@@ -84,7 +89,7 @@ HWY_INLINE WalkLanes no_jobs() {
     lanes.stretch = {zero, zero, zero, zero, zero, zero, none, none};
     lanes.per_x = lanes.per_y = lanes.s = zero;
     lanes.x = lanes.y = lanes.level = lanes.job = none;
-    lanes.alive = lanes.waits = lanes.unknown = no_word_lanes();
+    lanes.alive = lanes.waits = lanes.inside = lanes.unknown = no_word_lanes();
     return lanes;
 }
 
@@ -111,11 +116,19 @@ HWY_INLINE void refill(const WalkConstants& constants, const StretchBlock& jobs,
     const MU real =
         hn::RebindMask(du, hn::Lt(hn::BitCast(di, lanes.job), hn::Set(di, std::int32_t(jobs.count))));
     lanes.alive = hn::And(hn::Or(lanes.alive, fresh), real);
-    lanes.unknown =
-        hn::And(hn::And(fresh, real), hn::MaskFromVec(expand(hn::Zero(du), fresh, jobs.unknown + next)));
-    lanes.waits = hn::Or(hn::AndNot(fresh, lanes.waits), lanes.unknown);
+    lanes.waits = hn::AndNot(fresh, lanes.waits);
     lanes.level = hn::IfThenElse(fresh, constants.start, lanes.level);
-    lanes.level = hn::IfThenZeroElse(lanes.unknown, lanes.level);
+    if (jobs.any_state) {
+        const VU state = expand(hn::Zero(du), fresh, jobs.state + next);
+        const auto begins = [&](std::uint32_t as) {
+            return hn::And(hn::And(fresh, real), hn::Eq(state, hn::Set(du, as)));
+        };
+        lanes.inside = hn::Or(hn::AndNot(fresh, lanes.inside), begins(SPA_INSIDE));
+        lanes.unknown = hn::Or(hn::AndNot(fresh, lanes.unknown), begins(SPA_UNKNOWN));
+        lanes.any_inside = !hn::AllFalse(du, lanes.inside);
+        lanes.waits = hn::Or(lanes.waits, lanes.unknown);
+        lanes.level = hn::IfThenZeroElse(lanes.unknown, lanes.level);
+    }
     const std::size_t more = std::min(constants.lanes - lanes.count, jobs.count - next);
     lanes.count += more;
     next += more;
@@ -158,7 +171,7 @@ HWY_INLINE void advance(const WalkConstants& constants, const ExitLanes& e, MU m
     lanes.s = hn::IfThenElse(hn::RebindMask(df, mask), e.s1, lanes.s);
 }
 
-// Whether anything in the node may be solid for the piece of the ray over it (spa_meets).
+// Whether the node has something to look for: an end of the solid, from outside or from inside.
 template <bool with_inner>
 HWY_INLINE MU meets(const WalkConstants& constants, const WalkLanes& lanes, VF s1) {
     const StretchLanes& stretch = lanes.stretch;
@@ -171,10 +184,11 @@ HWY_INLINE MU meets(const WalkConstants& constants, const WalkLanes& lanes, VF s
     const VF wa = hn::Add(stretch.w0, hn::Mul(lanes.s, stretch.dw));
     const VF wb = hn::Add(stretch.w0, hn::Mul(s1, stretch.dw));
     const VF high = hn::Max(wa, wb);
+    const VF low = hn::Min(wa, wb);
+    MU met;
     if constexpr (!with_inner) {
-        return hn::RebindMask(du, hn::Ge(high, hn::BitCast(df, gather(constants.nodes, node))));
+        met = hn::RebindMask(du, hn::Ge(high, hn::BitCast(df, gather(constants.nodes, node))));
     } else {
-        const VF low = hn::Min(wa, wb);
         const VU low_code = hn::Set(du, 0xFFFF);
         const auto decode = [&](VU code) {
             return hn::BitCast(df,
@@ -187,73 +201,78 @@ HWY_INLINE MU meets(const WalkConstants& constants, const WalkLanes& lanes, VF s
             return hn::And(hn::Ge(high, decode(hn::And(range, low_code))),
                            hn::Le(low, decode(hn::ShiftRight<16>(range))));
         };
-        return hn::RebindMask(du, hn::Or(in(first), in(second)));
+        met = hn::RebindMask(du, hn::Or(in(first), in(second)));
     }
+    if (!lanes.any_inside) return met;
+    if (constants.cores == nullptr) return hn::Or(met, lanes.inside);
+    const VI index = hn::BitCast(di, node);
+    const MU ends = hn::RebindMask(du, hn::Lt(low, hn::GatherIndex(df, constants.cores, index)));
+    return hn::Or(hn::AndNot(lanes.inside, met), hn::And(lanes.inside, ends));
 }
 
-enum class Mixed { nothing, event, unusual };
+// What came of the lanes that the text took through their cells.
+struct ByText {
+    MU event, inside; // event: to be reported; inside: the state after the cell
+    VU before;        // the state before it
+};
 
-// A cell with a mixed triangle, by the text.
-inline Mixed cross_mixed(const shader::SpaMap& map, const StretchBlock& jobs, std::size_t job,
-                         std::uint32_t x, std::uint32_t y, float s0, float s1, bool unknown) {
-    shader::SpaEvent event{};
-    shader::SpaPiece piece{};
-    shader::SpaTriangle tri{};
-    shader::uint state = unknown ? SPA_UNKNOWN : SPA_OUTSIDE;
-    const bool any =
-        shader::spa_cross_cell(map, load_stretch(map, jobs, job), x, y, s0, s1, 0, state, event, piece, tri);
-    if (any) return event.front ? Mixed::event : Mixed::unusual;
-    return state == SPA_INSIDE ? Mixed::unusual : Mixed::nothing;
-}
-
-// The lanes of `mixed`, one after the other.
-HWY_NOINLINE void cross_mixed_lanes(const shader::SpaMap& map, const StretchBlock& jobs,
-                                    const WalkLanes& lanes, VF s1, MU mixed, MU& event, MU& unusual) {
-    HWY_ALIGN std::uint32_t kinds[hn::MaxLanes(du)] = {}, x[hn::MaxLanes(du)], y[hn::MaxLanes(du)],
-                            job[hn::MaxLanes(du)], wanted[hn::MaxLanes(du)], unknown[hn::MaxLanes(du)];
+// Takes the lanes of `mask` through their cells, one after the other.
+HWY_NOINLINE ByText cross_by_text(const shader::SpaMap& map, const WalkConstants& constants,
+                                  const StretchBlock& jobs, const WalkLanes& lanes, VF s1, MU mask) {
+    HWY_ALIGN std::uint32_t x[hn::MaxLanes(du)], y[hn::MaxLanes(du)], job[hn::MaxLanes(du)],
+        wanted[hn::MaxLanes(du)], state[hn::MaxLanes(du)], event[hn::MaxLanes(du)] = {};
     HWY_ALIGN float from[hn::MaxLanes(df)], to[hn::MaxLanes(df)];
+    VU before = hn::IfThenElse(lanes.inside, hn::Set(du, SPA_INSIDE), hn::Set(du, SPA_OUTSIDE));
+    before = hn::IfThenElse(lanes.unknown, hn::Set(du, SPA_UNKNOWN), before);
+    hn::Store(before, du, state);
     hn::Store(lanes.x, du, x);
     hn::Store(lanes.y, du, y);
     hn::Store(lanes.job, du, job);
-    hn::Store(hn::VecFromMask(du, mixed), du, wanted);
-    hn::Store(hn::VecFromMask(du, lanes.unknown), du, unknown);
+    hn::Store(hn::VecFromMask(du, mask), du, wanted);
     hn::Store(lanes.s, df, from);
     hn::Store(s1, df, to);
-    for (std::size_t i = 0; i < hn::Lanes(du); ++i)
-        if (wanted[i] != 0)
-            kinds[i] =
-                std::uint32_t(cross_mixed(map, jobs, job[i], x[i], y[i], from[i], to[i], unknown[i] != 0));
-    const VU kind = hn::Load(du, kinds);
-    event = hn::Eq(kind, hn::Set(du, std::uint32_t(Mixed::event)));
-    unusual = hn::Eq(kind, hn::Set(du, std::uint32_t(Mixed::unusual)));
+    for (std::size_t i = 0; i < hn::Lanes(du); ++i) {
+        if (wanted[i] == 0) continue;
+        shader::SpaEvent found{};
+        shader::SpaPiece piece{};
+        shader::SpaTriangle tri{};
+        event[i] = shader::spa_cross_cell(map, load_stretch(map, jobs, job[i]), x[i], y[i], from[i], to[i],
+                                          constants.flags, state[i], found, piece, tri)
+                       ? 1
+                       : 0;
+    }
+    return {hn::Ne(hn::Load(du, event), hn::Zero(du)),
+            hn::And(mask, hn::Eq(hn::Load(du, state), hn::Set(du, SPA_INSIDE))), before};
 }
 
-// What the lanes of lanes.waits meet in their cells goes to `results`. Gives back which of them met
-// something.
+// What the lanes of lanes.waits meet in their cells goes to `results`, and their states change. Gives back
+// which of them met something.
 template <bool with_inner>
 HWY_INLINE MU cross(const shader::SpaMap& map, const WalkConstants& constants, const StretchBlock& jobs,
-                    const WalkLanes& lanes, VF s1, ResultBlock& results) {
-    MU pure = lanes.waits;
-    MU unusual = no_word_lanes();
-    MU event = no_word_lanes();
+                    WalkLanes& lanes, VF s1, ResultBlock& results) {
+    const CrossLanes cells = cross_cells<with_inner>(map, lanes.stretch, {lanes.x, lanes.y, lanes.s, s1});
+    // Vectors take rays from outside through pure cells.
+    MU by_text = hn::Or(lanes.inside, hn::And(lanes.unknown, hn::RebindMask(du, cells.starts_inside)));
     if (constants.cells != nullptr) {
         const VU row =
             hn::Shl(hn::Xor(lanes.y, lanes.stretch.flip_y), hn::Add(constants.levels, hn::Set(du, 1)));
         const VU place = hn::Add(row, hn::Xor(lanes.x, lanes.stretch.flip_x));
-        const MU mixed = hn::And(lanes.waits, hn::Ne(gather(constants.cells, place), hn::Zero(du)));
-        if (!hn::AllFalse(du, mixed)) {
-            pure = hn::AndNot(mixed, pure);
-            cross_mixed_lanes(map, jobs, lanes, s1, mixed, event, unusual);
-        }
+        by_text = hn::Or(by_text, hn::Ne(gather(constants.cells, place), hn::Zero(du)));
     }
-    const CrossLanes cells = cross_cells<with_inner>(map, lanes.stretch, {lanes.x, lanes.y, lanes.s, s1});
-    const MU inside = hn::And(lanes.unknown, hn::RebindMask(du, cells.starts_inside));
-    unusual = hn::Or(unusual, hn::And(pure, inside));
-    const MU surface = hn::AndNot(inside, hn::And(pure, hn::RebindMask(du, cells.any)));
-    const MU found = hn::Or(surface, hn::Or(event, unusual));
+    if ((constants.flags & SPA_CULL_FRONT) != 0) by_text = lanes.alive;
+    by_text = hn::And(by_text, lanes.waits);
+    const MU surface = hn::AndNot(by_text, hn::And(lanes.waits, hn::RebindMask(du, cells.any)));
+    MU found = surface;
+    VU kind = hn::Zero(du);
+    if (!hn::AllFalse(du, by_text)) {
+        const ByText text = cross_by_text(map, constants, jobs, lanes, s1, by_text);
+        found = hn::Or(found, text.event);
+        kind = hn::IfThenElseZero(text.event, hn::Add(hn::Set(du, std::uint32_t(Found::event)), text.before));
+        lanes.inside = hn::Or(hn::AndNot(by_text, lanes.inside), text.inside);
+        lanes.any_inside = !hn::AllFalse(du, lanes.inside);
+    }
+    lanes.unknown = hn::AndNot(lanes.waits, lanes.unknown);
     if (hn::AllFalse(du, found)) return found;
-    VU kind = hn::IfThenElseZero(event, hn::Set(du, std::uint32_t(Found::event)));
-    kind = hn::IfThenElse(unusual, hn::Set(du, std::uint32_t(Found::unusual)), kind);
     const MF found_f = hn::RebindMask(df, found);
     const std::size_t n = results.count;
     append(lanes.job, found, results.job + n);
@@ -275,12 +294,24 @@ HWY_INLINE MU cross(const shader::SpaMap& map, const WalkConstants& constants, c
     return found;
 }
 
+// Stretches that end in the solid: the ray's next one begins there.
+HWY_NOINLINE void keep_states(const StretchBlock& jobs, VU job, MU inside, ChordBlock& chords) {
+    HWY_ALIGN std::uint32_t all[hn::MaxLanes(du)], wanted[hn::MaxLanes(du)];
+    hn::Store(job, du, all);
+    hn::Store(hn::VecFromMask(du, inside), du, wanted);
+    for (std::size_t i = 0; i < hn::Lanes(du); ++i)
+        if (wanted[i] != 0) chords.state[jobs.chord[all[i]]] = SPA_INSIDE;
+}
+
 // One step of a group of lanes.
 template <bool with_inner>
-HWY_INLINE void step(const shader::SpaMap& map, const WalkConstants& constants, const StretchBlock& jobs,
-                     std::size_t& next, WalkLanes& lanes, ResultBlock& results) {
+HWY_INLINE void step(const shader::SpaMap& map, const WalkConstants& constants, std::size_t& next,
+                     WalkLanes& lanes, StreamBlock& block) {
+    const StretchBlock& jobs = block.stretches;
     if (constants.lanes - lanes.count >= constants.enough_free && next < jobs.count)
         refill(constants, jobs, next, lanes);
+    if (lanes.any_inside && constants.cores == nullptr)
+        lanes.level = hn::IfThenZeroElse(lanes.inside, lanes.level);
     const ExitLanes e = exits(lanes);
     const MU met = meets<with_inner>(constants, lanes, e.s1);
     const MU steps = hn::AndNot(lanes.waits, lanes.alive);
@@ -292,30 +323,35 @@ HWY_INLINE void step(const shader::SpaMap& map, const WalkConstants& constants, 
     MU on = hn::AndNot(met, steps);
     const std::size_t waiting = hn::CountTrue(du, lanes.waits);
     if (waiting >= constants.enough_waiting || (waiting > 0 && hn::AllFalse(du, steps))) {
-        const MU found = cross<with_inner>(map, constants, jobs, lanes, e.s1, results);
+        const MU found = cross<with_inner>(map, constants, jobs, lanes, e.s1, block.results);
         on = hn::Or(on, hn::AndNot(found, lanes.waits));
         lanes.alive = hn::AndNot(found, lanes.alive);
-        lanes.unknown = hn::AndNot(lanes.waits, lanes.unknown);
         lanes.waits = no_word_lanes();
     }
     const MU ended = hn::And(on, hn::RebindMask(du, hn::Ge(e.s1, hn::Set(df, 1.0F))));
     lanes.alive = hn::AndNot(ended, lanes.alive);
+    if (lanes.any_inside) {
+        const MU ended_inside = hn::And(ended, lanes.inside);
+        if (!hn::AllFalse(du, ended_inside)) keep_states(jobs, lanes.job, ended_inside, block.chords);
+        lanes.inside = hn::And(lanes.inside, lanes.alive);
+        lanes.any_inside = !hn::AllFalse(du, lanes.inside);
+    }
     lanes.count = hn::CountTrue(du, lanes.alive);
     advance(constants, e, hn::AndNot(ended, on), lanes);
 }
 
-// Walks all jobs and writes down what they found.
+// Walks all stretches of the block and writes down what they found.
 template <bool with_inner>
-void walk(const shader::SpaMap& map, const StretchBlock& jobs, ResultBlock& results) {
-    const WalkConstants constants = walk_constants(map);
-    results.count = 0;
+void walk(const shader::SpaMap& map, std::uint32_t flags, StreamBlock& block) {
+    const WalkConstants constants = walk_constants(map, flags);
+    block.results.count = 0;
     std::size_t next = 0;
     WalkLanes a = no_jobs();
     WalkLanes b = no_jobs();
     do {
-        step<with_inner>(map, constants, jobs, next, a, results);
-        step<with_inner>(map, constants, jobs, next, b, results);
-    } while (a.count + b.count > 0 || next < jobs.count);
+        step<with_inner>(map, constants, next, a, block);
+        step<with_inner>(map, constants, next, b, block);
+    } while (a.count + b.count > 0 || next < block.stretches.count);
 }
 
 } // namespace spa::trace::HWY_NAMESPACE
