@@ -286,9 +286,12 @@ inline void find_stretches(const shader::SpaMap& map, std::size_t pass, ChordBlo
     }
     jobs.count = n;
     jobs.any_state = !hn::AllTrue(du, hn::Eq(states, hn::Set(du, SPA_OUTSIDE)));
-    // Vectors are loaded whole, also of what lies behind the last job.
+    // Vectors are loaded whole, also of what lies behind the last job: lanes that get nothing else look at
+    // cell 0.
     for (std::size_t i = 0; i < n + lane_count; i += lane_count)
         hn::StoreU(hn::Iota(du, std::uint32_t(i)), du, jobs.number + i);
+    for (Words* const words : {&jobs.x, &jobs.y, &jobs.flip_x, &jobs.flip_y})
+        hn::StoreU(hn::Zero(du), du, *words + n);
 }
 
 } // namespace spa::trace::HWY_NAMESPACE
