@@ -26,7 +26,10 @@ SPA_BEGIN
 // Regions of a mixed triangle overlap by this many cells, so that no ray passes between them.
 #define SPA_OVERLAP 1e-6f
 // Steps lower than this, relative to w, are rounding and no walls.
-#define SPA_STEP 1e-4f
+#define SPA_STEP 1e-5f
+// Rounding at the borders of triangles must not make a ray that enters the solid leave and enter again, nor
+// one that leaves enter and leave again: this much of w is no reason to.
+#define SPA_SLACK 4e-6f
 
 // Words of a prism.
 #define SPA_PRISM_WORDS 8u // outer plane (3), inner plane (3), properties, place of the half-planes
@@ -87,6 +90,19 @@ struct SpaClip {
     uint by1;
 };
 
+// Before anything has happened.
+SPA_FUNCTION SpaEvent spa_no_event() {
+    SpaEvent event;
+    event.s = 0.0f;
+    event.plane.c = 0.0f;
+    event.plane.u = 0.0f;
+    event.plane.v = 0.0f;
+    event.by = SPA_BY_EDGE;
+    event.layer = 0u;
+    event.front = true;
+    return event;
+}
+
 SPA_FUNCTION float spa_at(SpaPlane plane, float u, float v) { return plane.c + plane.u * u + plane.v * v; }
 
 SPA_FUNCTION SpaPlane spa_load_plane(SpaMap map, uint place) {
@@ -142,24 +158,41 @@ SPA_FUNCTION SpaPrism spa_prism(SpaMap map, SpaTriangle tri, uint index) {
     return prism;
 }
 
+// Stands for what the ray comes from in the solid, where nothing continues it.
+SPA_FUNCTION SpaPrism spa_no_prism() {
+    SpaPrism prism;
+    prism.outer.c = SPA_FAR;
+    prism.outer.u = 0.0f;
+    prism.outer.v = 0.0f;
+    prism.inner = prism.outer;
+    prism.layer = 0u;
+    prism.half_planes = 0u;
+    prism.first = 0u;
+    prism.open = 0u;
+    return prism;
+}
+
 // How many prisms to look at.
 SPA_FUNCTION uint spa_prisms(SpaMap map, SpaTriangle tri) {
     return tri.prisms == SPA_PURE ? (map.surfaces + 1u) / 2u : tri.prisms;
 }
 
 // Keeps of `clip` what lies where a function is >= 0 that has the values g0 and g1 at the piece's ends. Never
-// asks for a change of sign: what is inside at an end stays inside there.
-SPA_FUNCTION void spa_clip(SPA_INOUT(SpaClip) clip, SpaPiece piece, float g0, float g1, uint by) {
-    if (g0 < 0.0f && g1 < 0.0f) {
+// asks for a change of sign: what is inside at an end stays inside there. slack: how far below 0 a function
+// may begin that rises, or stays so.
+SPA_FUNCTION void spa_clip(SPA_INOUT(SpaClip) clip, SpaPiece piece, float g0, float g1, float slack,
+                           uint by) {
+    float least = g0 < 0.0f || g0 <= g1 ? 0.0f - slack : 0.0f;
+    if (g0 < least && g1 < least) {
         clip.s1 = -1.0f;
-    } else if (g0 < 0.0f) {
-        float s = min(piece.s0 + (piece.s1 - piece.s0) * (g0 / (g0 - g1)), piece.s1);
+    } else if (g0 < least) {
+        float s = min(piece.s0 + (piece.s1 - piece.s0) * ((g0 - least) / (g0 - g1)), piece.s1);
         if (s > clip.s0) {
             clip.s0 = s;
             clip.by0 = by;
         }
-    } else if (g1 < 0.0f) {
-        float s = piece.s0 + (piece.s1 - piece.s0) * (g0 / (g0 - g1));
+    } else if (g1 < least) {
+        float s = piece.s0 + (piece.s1 - piece.s0) * ((g0 - least) / (g0 - g1));
         if (s < clip.s1) {
             clip.s1 = s;
             clip.by1 = by;
@@ -167,28 +200,31 @@ SPA_FUNCTION void spa_clip(SPA_INOUT(SpaClip) clip, SpaPiece piece, float g0, fl
     }
 }
 
-// The piece inside a prism; empty if s1 < s0.
-SPA_FUNCTION SpaClip spa_clip_prism(SpaMap map, SpaPrism prism, SpaPiece piece) {
+// The piece inside a prism; empty if s1 < s0. slack: 0, or SPA_SLACK in the
+// solid.
+SPA_FUNCTION SpaClip spa_clip_prism(SpaMap map, SpaPrism prism, SpaPiece piece, float slack) {
     SpaClip clip;
     clip.s0 = piece.s0;
     clip.s1 = piece.s1;
     clip.by0 = SPA_BY_EDGE;
     clip.by1 = SPA_BY_EDGE;
+    float by_w = slack * piece.w0;
     spa_clip(clip, piece, piece.w0 - spa_at(prism.outer, piece.u0, piece.v0),
-             piece.w1 - spa_at(prism.outer, piece.u1, piece.v1), SPA_BY_OUTER);
+             piece.w1 - spa_at(prism.outer, piece.u1, piece.v1), by_w, SPA_BY_OUTER);
     if (prism.inner.c < SPA_FAR)
         spa_clip(clip, piece, spa_at(prism.inner, piece.u0, piece.v0) - piece.w0,
-                 spa_at(prism.inner, piece.u1, piece.v1) - piece.w1, SPA_BY_INNER);
+                 spa_at(prism.inner, piece.u1, piece.v1) - piece.w1, by_w, SPA_BY_INNER);
     for (uint n = 0u; n < prism.half_planes; n += 1u) {
         SpaPlane plane = spa_load_plane(map, prism.first + 3u * n);
         spa_clip(clip, piece, spa_at(plane, piece.u0, piece.v0) + SPA_OVERLAP,
-                 spa_at(plane, piece.u1, piece.v1) + SPA_OVERLAP, SPA_BY_HALF_PLANE + n);
+                 spa_at(plane, piece.u1, piece.v1) + SPA_OVERLAP, 0.0f, SPA_BY_HALF_PLANE + n);
     }
     return clip;
 }
 
-// The edge of the triangle that is nearest to a place in it, as a half-plane.
-SPA_FUNCTION SpaPlane spa_edge(uint beyond, float u, float v) {
+// The edge of the triangle that is nearest to a place in it, as a half-plane: the triangle's (towards = 1) or
+// the one beyond it (-1).
+SPA_FUNCTION SpaPlane spa_edge(uint beyond, float u, float v, float towards) {
     SpaPlane edge;
     float a = beyond == 0u ? u : 1.0f - u;
     float b = beyond == 0u ? v : 1.0f - v;
@@ -205,6 +241,9 @@ SPA_FUNCTION SpaPlane spa_edge(uint beyond, float u, float v) {
         edge.u = -turn;
         edge.v = -turn;
     }
+    edge.c *= towards;
+    edge.u *= towards;
+    edge.v *= towards;
     return edge;
 }
 
@@ -225,16 +264,43 @@ SPA_FUNCTION SpaEvent spa_event(SpaMap map, SpaTriangle tri, SpaPrism prism, Spa
         float u = piece.u0 + f * (piece.u1 - piece.u0);
         float v = piece.v0 + f * (piece.v1 - piece.v0);
         float w = piece.w0 + f * (piece.w1 - piece.w0);
-        if (abs(w - spa_at(prism.outer, u, v)) <= SPA_STEP * w) {
+        // Along the piece the ray sinks below the outer end if it enters there, or rises.
+        float rise = front ? 1.0f : -1.0f;
+        float sinks = (piece.w1 - spa_at(prism.outer, piece.u1, piece.v1)) -
+                      (piece.w0 - spa_at(prism.outer, piece.u0, piece.v0));
+        float climbs = (spa_at(prism.inner, piece.u1, piece.v1) - piece.w1) -
+                       (spa_at(prism.inner, piece.u0, piece.v0) - piece.w0);
+        if (rise * sinks >= 0.0f && abs(w - spa_at(prism.outer, u, v)) <= SPA_STEP * w) {
             event.by = SPA_BY_OUTER;
-        } else if (abs(w - spa_at(prism.inner, u, v)) <= SPA_STEP * w) {
+        } else if (rise * climbs >= 0.0f && abs(w - spa_at(prism.inner, u, v)) <= SPA_STEP * w) {
             event.by = SPA_BY_INNER;
             event.plane = prism.inner;
         } else {
-            event.plane = spa_edge(tri.beyond, u, v);
+            // Towards the solid: into this triangle, or back into the one before it.
+            event.plane = spa_edge(tri.beyond, u, v, front ? 1.0f : -1.0f);
         }
     }
     return event;
+}
+
+// Whether the ray at sigma s is between a prism's ends, or outside them by no more than `slack`, relative to
+// w; slack < 0: inside by more than that.
+SPA_FUNCTION bool spa_touches(SpaPrism prism, SpaPiece piece, float s, float slack) {
+    float f = piece.s1 > piece.s0 ? (s - piece.s0) / (piece.s1 - piece.s0) : 0.0f;
+    float u = piece.u0 + f * (piece.u1 - piece.u0);
+    float v = piece.v0 + f * (piece.v1 - piece.v0);
+    float w = piece.w0 + f * (piece.w1 - piece.w0);
+    return w * (1.0f + slack) >= spa_at(prism.outer, u, v) && w * (1.0f - slack) <= spa_at(prism.inner, u, v);
+}
+
+// Whether the piece begins in the prism, but by rounding: it leaves it by an end that it is at.
+SPA_FUNCTION bool spa_leaves(SpaPrism prism, SpaPiece piece, SpaClip clip) {
+    if (clip.by0 != SPA_BY_EDGE || clip.s1 >= piece.s1) return false;
+    float outer = piece.w0 - spa_at(prism.outer, piece.u0, piece.v0);
+    float inner = spa_at(prism.inner, piece.u0, piece.v0) - piece.w0;
+    float small = SPA_SLACK * piece.w0;
+    return (clip.by1 == SPA_BY_OUTER && outer < small && inner >= small) ||
+           (clip.by1 == SPA_BY_INNER && inner < small && outer >= small);
 }
 
 SPA_FUNCTION bool spa_silent(SpaPrism prism, SpaEvent event, uint flags) {
@@ -252,20 +318,21 @@ SPA_FUNCTION bool spa_cross(SpaMap map, SpaTriangle tri, SpaPiece piece, uint fl
     if (state == SPA_UNKNOWN) {
         state = SPA_OUTSIDE;
         for (uint n = 0u; n < count; n += 1u) {
-            SpaClip clip = spa_clip_prism(map, spa_prism(map, tri, n), piece);
+            SpaClip clip = spa_clip_prism(map, spa_prism(map, tri, n), piece, 0.0f);
             if (clip.s0 <= at && clip.s1 >= at) state = SPA_INSIDE;
         }
     }
     // Every turn passes one end of a prism.
     for (uint turn = 0u; turn <= 2u * count; turn += 1u) {
-        SpaPrism found = spa_prism(map, tri, 0u);
+        SpaPrism found = spa_no_prism();
         uint by = SPA_BY_EDGE;
         float s = 2.0f;
         if (state == SPA_OUTSIDE) {
             for (uint n = 0u; n < count; n += 1u) {
                 SpaPrism prism = spa_prism(map, tri, n);
-                SpaClip clip = spa_clip_prism(map, prism, piece);
-                bool ahead = clip.s0 <= clip.s1 && (clip.s1 > at || turn == 0u);
+                SpaClip clip = spa_clip_prism(map, prism, piece, 0.0f);
+                bool ahead =
+                    clip.s0 <= clip.s1 && (clip.s1 > at || turn == 0u) && !spa_leaves(prism, piece, clip);
                 if (ahead && max(clip.s0, at) < s) {
                     s = max(clip.s0, at);
                     by = clip.s0 >= at ? clip.by0 : SPA_BY_EDGE;
@@ -282,7 +349,7 @@ SPA_FUNCTION bool spa_cross(SpaMap map, SpaTriangle tri, SpaPiece piece, uint fl
                 grows = false;
                 for (uint n = 0u; n < count; n += 1u) {
                     SpaPrism prism = spa_prism(map, tri, n);
-                    SpaClip clip = spa_clip_prism(map, prism, piece);
+                    SpaClip clip = spa_clip_prism(map, prism, piece, SPA_SLACK);
                     if (clip.s0 <= s && clip.s1 > s) {
                         s = clip.s1;
                         by = clip.by1;
@@ -292,6 +359,12 @@ SPA_FUNCTION bool spa_cross(SpaMap map, SpaTriangle tri, SpaPiece piece, uint fl
                 }
             }
             if (s >= piece.s1) return false;
+            // An end at which the ray is may just have been missed.
+            for (uint k = 0u; k < count && by == SPA_BY_EDGE; k += 1u) {
+                SpaPrism prism = spa_prism(map, tri, k);
+                if (spa_touches(prism, piece, at, SPA_STEP) && !spa_touches(prism, piece, at, -SPA_STEP))
+                    found = prism;
+            }
             state = SPA_OUTSIDE;
             event = spa_event(map, tri, found, piece, s, by, false);
         }

@@ -157,7 +157,10 @@ SPA_FUNCTION SpaHit spa_finish(SpaMap map, SpaRay ray, SpaChord chord, SpaStretc
             spa_plane_at(map, stretch, chord.foot, ray.direction, event.plane, real_x, real_y, ta) - 1.0f;
         float gb =
             spa_plane_at(map, stretch, chord.foot, ray.direction, event.plane, real_x, real_y, tb) - 1.0f;
-        if ((ga < 0.0f) != (gb < 0.0f)) t = min(max(ta + (tb - ta) * (ga / (ga - gb)), ta), tb);
+        // Its value falls where the ray enters by an outer end or leaves by an inner one, else it rises.
+        bool falls = event.front == (event.by == SPA_BY_OUTER);
+        if (falls ? ga >= 0.0f && gb < 0.0f : ga < 0.0f && gb >= 0.0f)
+            t = min(max(ta + (tb - ta) * (ga / (ga - gb)), ta), tb);
     }
     float3 normal = spa_gradient(map, stretch, event.plane, real_x, real_y, tri.beyond);
     if (event.by != SPA_BY_OUTER) normal = normal * -1.0f;
@@ -305,14 +308,7 @@ SPA_FUNCTION bool spa_trace_projective(SpaMap map, SpaRay ray, uint flags, SPA_O
     float second = max(low, min(high, crossings.z));
     float third = max(high, crossings.z);
     uint state = chord.starts_inside_sphere ? SPA_UNKNOWN : SPA_OUTSIDE;
-    SpaEvent event;
-    event.s = 0.0f;
-    event.plane.c = 0.0f;
-    event.plane.u = 0.0f;
-    event.plane.v = 0.0f;
-    event.by = SPA_BY_EDGE;
-    event.layer = 0u;
-    event.front = true;
+    SpaEvent event = spa_no_event();
     SpaPiece piece;
     piece.s0 = 0.0f;
     piece.u0 = 0.0f;

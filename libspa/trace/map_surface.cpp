@@ -73,6 +73,7 @@ class CellFinder {
 public:
     CellFinder(const Part& part, const MapSamples& samples) : part_(part), samples_(samples) {
         cells_count_ = (samples.grid.width - 1) / 2;
+        // At least 1: turned places are known by flip_x, flip_y != 0 (spa_stretch.h).
         result_.levels = std::max(1U, std::uint32_t(std::bit_width(cells_count_ - 1)));
         result_.ranges.resize(std::size_t(4) << (2 * result_.levels));
         result_.cores.resize(result_.ranges.size()); // padding keeps nobody from skipping
@@ -329,7 +330,7 @@ private:
 
     // Radius and box hold the point. By more than rays are off there.
     void extend(Vec3d point) {
-        constexpr float margin = 4e-6F;
+        constexpr float margin = 2 * SPA_SLACK;
         result_.radius = std::max(result_.radius, float(length(point)) * (1 + margin));
         const Vec3f p = to_float(point);
         result_.box_low = {std::min(result_.box_low.x, p.x - margin),

@@ -56,7 +56,7 @@ void finish_by_text(const TraceMap& map, const StreamBlock& block, std::size_t r
     const std::size_t ray = block.chords.ray[chord];
     if constexpr (Sink::wants_record) {
         const shader::SpaStretch stretch = load_stretch(map.map(), block.stretches, job);
-        shader::SpaEvent event{};
+        shader::SpaEvent event = shader::spa_no_event();
         shader::SpaPiece piece{};
         shader::SpaTriangle tri{};
         const bool from_outside = Found(results.found[result]) == Found::surface;

@@ -61,17 +61,9 @@ HWY_INLINE void finish(const shader::SpaMap& map, const StreamBlock& block, cons
     const CrossLanes cross = cross_cells<with_inner>(map, stretch, cell);
     const PieceLanes& piece = cross.piece;
 
-    // An edge of the triangle where the plane passes too is no wall.
     const VF zero = hn::Zero(df);
-    const VF f = hn::IfThenElseZero(hn::Gt(piece.s1, piece.s0),
-                                    hn::Div(hn::Sub(cross.s, piece.s0), hn::Sub(piece.s1, piece.s0)));
-    const auto at = [&](VF a, VF b) { return hn::Add(a, hn::Mul(f, hn::Sub(b, a))); };
-    const VF w = at(piece.w0, piece.w1);
-    const VF off = hn::Abs(hn::Sub(w, plane_at(cross.plane, at(piece.u0, piece.u1), at(piece.v0, piece.v1))));
-    const MF wall = hn::And(cross.by_edge, hn::Gt(off, hn::Mul(hn::Set(df, SPA_STEP), w)));
-    hn::Store(hn::VecFromMask(du, hn::RebindMask(du, wall)), du, hits.by_text);
+    hn::Store(hn::VecFromMask(du, hn::RebindMask(du, cross.by_edge)), du, hits.by_text);
 
-    // Of edges only those of the outer plane stay here: cross.plane is the outer one unless cross.inner.
     const VF ta = of_job(jobs.ta);
     const VF tb = of_job(jobs.tb);
     const VI chord = hn::BitCast(di, word_of_job(jobs.chord));
@@ -109,7 +101,9 @@ HWY_INLINE void finish(const shader::SpaMap& map, const StreamBlock& block, cons
     const VF exact = hn::Min(
         hn::Max(hn::Add(t_start, hn::Mul(hn::Sub(t_end, t_start), hn::Div(ga, hn::Sub(ga, gb)))), t_start),
         t_end);
-    const MF changes = hn::Xor(hn::Lt(ga, zero), hn::Lt(gb, zero));
+    const MF a_below = hn::Lt(ga, zero);
+    const MF b_below = hn::Lt(gb, zero);
+    const MF changes = select_mask(cross.inner, hn::AndNot(b_below, a_below), hn::AndNot(a_below, b_below));
     const VF t = hn::IfThenElse(changes, exact, time_of(stretch, ta, tb, cross.s));
     const VI ray =
         hn::ShiftLeft<3>(hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(chords.ray + 0), chord));

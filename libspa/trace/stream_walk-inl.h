@@ -233,7 +233,7 @@ HWY_NOINLINE ByText cross_by_text(const shader::SpaMap& map, const WalkConstants
     hn::Store(s1, df, to);
     for (std::size_t i = 0; i < hn::Lanes(du); ++i) {
         if (wanted[i] == 0) continue;
-        shader::SpaEvent found{};
+        shader::SpaEvent found = shader::spa_no_event();
         shader::SpaPiece piece{};
         shader::SpaTriangle tri{};
         event[i] = shader::spa_cross_cell(map, load_stretch(map, jobs, job[i]), x[i], y[i], from[i], to[i],
@@ -251,8 +251,10 @@ template <bool with_inner>
 HWY_INLINE MU cross(const shader::SpaMap& map, const WalkConstants& constants, const StretchBlock& jobs,
                     WalkLanes& lanes, VF s1, ResultBlock& results) {
     const CrossLanes cells = cross_cells<with_inner>(map, lanes.stretch, {lanes.x, lanes.y, lanes.s, s1});
-    // Vectors take rays from outside through pure cells.
+    // Vectors take rays from outside through pure cells. What begins at an edge of a triangle is looked at
+    // twice.
     MU by_text = hn::Or(lanes.inside, hn::And(lanes.unknown, hn::RebindMask(du, cells.starts_inside)));
+    by_text = hn::Or(by_text, hn::RebindMask(du, hn::And(cells.any, cells.by_edge)));
     if (constants.cells != nullptr) {
         const VU row =
             hn::Shl(hn::Xor(lanes.y, lanes.stretch.flip_y), hn::Add(constants.levels, hn::Set(du, 1)));

@@ -380,9 +380,9 @@ bool Judge::near_boundary(Vec3d point, double reach) const {
                        [&](const Piece& piece) { return std::abs(depth_in(piece, point)) <= reach; });
 }
 
-bool Judge::near_face(Vec3d point, double reach, const Event& face) const {
+bool Judge::near_face(Vec3d point, double reach, const Event& face, bool any_layer) const {
     for (const Piece& piece : pieces_) {
-        if (piece.layer != face.layer || !(std::abs(depth_in(piece, point)) <= reach)) continue;
+        if ((piece.layer != face.layer && !any_layer) || !(std::abs(depth_in(piece, point)) <= reach)) continue;
         for (unsigned k = 0; k < piece.count; ++k) {
             const HalfSpace& half = piece.halves[k];
             const double size = length(half.plane);

@@ -54,7 +54,7 @@ public:
     // Whether the boundary of a piece of solid passes the point at no more than `reach`.
     [[nodiscard]] bool near_boundary(Vec3d point, double reach) const;
     // Whether the point is that near to a face of this kind.
-    [[nodiscard]] bool near_face(Vec3d point, double reach, const Event& face) const;
+    [[nodiscard]] bool near_face(Vec3d point, double reach, const Event& face, bool any_layer) const;
     // Whether the point is that near to a face of the solid by which the ray enters, or leaves.
     [[nodiscard]] bool near_passage(Vec3d point, double reach, Vec3d direction, bool enters) const;
     // Points just inside those pieces whose boundaries pass the point at no more than `reach`, no farther

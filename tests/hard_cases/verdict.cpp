@@ -106,10 +106,14 @@ private:
     std::vector<Answer> answers_;
 };
 
+// Of walls that are left the layer is not known.
+bool leaves_wall(const trace::Hit& hit) { return !hit.front && hit.side == trace::HitSide::wall; }
+
 // Of what the core hides nothing but the change from outside to inside is seen, or back.
 bool same_record(const Event& event, const trace::Hit& hit) {
     if (event.core_length > 0) return event.enters == hit.front;
-    return event.enters == hit.front && event.side == hit.side && event.layer == hit.layer &&
+    return event.enters == hit.front && event.side == hit.side &&
+           (event.layer == hit.layer || leaves_wall(hit)) &&
            dot(event.normal, to_double(hit.normal)) > 1 - 1e-4;
 }
 
@@ -154,7 +158,7 @@ Judgement judge_hit(const Judge& judge, const trace::Ray& ray, std::uint32_t fla
     const bool in_core = truth.has_value() && truth->core_length > 0;
     if (!is_there || !near.some_free_before(t, bound))
         judgement.verdict = truth.has_value() ? Verdict::wrong_time : Verdict::invented;
-    else if (!in_core && !judge.near_face(point, bound, face))
+    else if (!in_core && !judge.near_face(point, bound, face, leaves_wall(hit)))
         judgement.verdict = Verdict::wrong_record;
     else
         judgement.verdict = Verdict::excused;
