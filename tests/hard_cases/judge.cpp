@@ -132,8 +132,7 @@ void Judge::add_triangle(const std::array<Corner, 3>& corners, Vec3d signs, bool
     note_core(to_center);
 }
 
-void Judge::add_region(const std::array<Corner, 3>& corners, unsigned i, Vec3d signs,
-                       bool center_inside) {
+void Judge::add_region(const std::array<Corner, 3>& corners, unsigned i, Vec3d signs, bool center_inside) {
     const unsigned j = (i + 1) % 3;
     const unsigned k = (i + 2) % 3;
     const Vec3d g = corners[i].direction;
@@ -173,8 +172,8 @@ void Judge::limit_slopes(const Interval& interval, Vec3d g, const std::array<Vec
         const Vec3d slope = normal * (1 / nq) - flat;
         double steepest = 0;
         for (const Vec3d& corner : region) steepest = std::max(steepest, std::abs(dot(slope, corner)));
-        // h = 2/N = 1/n; a half at most, so that W stays above 0 on the smallest grids.
-        const double limit = std::min(2.0 / n_, 0.5) * w;
+        // 4 h, h = 2/N = 1/n; a half at most, so that W stays above 0 on the smallest grids.
+        const double limit = std::min(4.0 / n_, 0.5) * w;
         return flat + slope * (steepest > limit ? limit / steepest : 1.0);
     };
     outer = end(interval.outer, interval.outer_normal);
@@ -382,7 +381,8 @@ bool Judge::near_boundary(Vec3d point, double reach) const {
 
 bool Judge::near_face(Vec3d point, double reach, const Event& face, bool any_layer) const {
     for (const Piece& piece : pieces_) {
-        if ((piece.layer != face.layer && !any_layer) || !(std::abs(depth_in(piece, point)) <= reach)) continue;
+        if ((piece.layer != face.layer && !any_layer) || !(std::abs(depth_in(piece, point)) <= reach))
+            continue;
         for (unsigned k = 0; k < piece.count; ++k) {
             const HalfSpace& half = piece.halves[k];
             const double size = length(half.plane);

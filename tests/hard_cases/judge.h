@@ -92,8 +92,7 @@ private:
     struct Span;
 
     void add_triangle(const std::array<Corner, 3>& corners, Vec3d signs, bool mixed, bool center_inside);
-    void add_region(const std::array<Corner, 3>& corners, unsigned i, Vec3d signs,
-                    bool center_inside);
+    void add_region(const std::array<Corner, 3>& corners, unsigned i, Vec3d signs, bool center_inside);
     void limit_slopes(const Interval& interval, Vec3d g, const std::array<Vec3d, 4>& region, Vec3d signs,
                       Vec3d& outer, Vec3d& inner) const;
     void add_ends(Piece& piece, Vec3d outer, Vec3d inner, bool to_center);
