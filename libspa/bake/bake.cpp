@@ -5,9 +5,11 @@
 #include "center.h"
 #include "color_image.h"
 #include "intervals.h"
+#include "mixed.h"
 #include "orbit.h"
 #include "pack.h"
 #include "radial.h"
+#include "winding.h"
 
 #include "../core/cell_triangles.h"
 #include "../core/error.h"
@@ -38,22 +40,27 @@ bool touches_center(Vec3d a, Vec3d b, Vec3d c) {
     return length(closest_point_on_triangle({}, a, b, c)) < on_surface_distance;
 }
 
-// What can be said of the triangles as the centre sees them.
-void inspect_triangles(const CenteredModel& centered, Report& report) {
+// What can be said of the triangles as the centre sees them. Whether it is inside costs time, and is asked
+// only where crossings will not tell.
+void inspect_triangles(const CenteredModel& centered, const Components& components, bool ask_inside,
+                       Report& report) {
     struct Findings {
         std::uint64_t edge_on = 0;
         bool on_surface = false;
     };
     const auto& triangles = centered.model->triangles;
+    WindingNumbers winding(components);
     const Findings findings = tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, triangles.size(), 16384), Findings{},
         [&](const auto& range, Findings found) {
+            WindingNumbers::Run run(winding);
             for (std::size_t t = range.begin(); t < range.end(); ++t) {
                 const Vec3d a = to_double(centered.positions[triangles[t].vertex[0]]);
                 const Vec3d b = to_double(centered.positions[triangles[t].vertex[1]]);
                 const Vec3d c = to_double(centered.positions[triangles[t].vertex[2]]);
                 if (dot(a, cross(b, c)) == 0) ++found.edge_on;
                 if (!found.on_surface) found.on_surface = touches_center(a, b, c);
+                if (ask_inside) run.add(t, a, b, c);
             }
             return found;
         },
@@ -62,6 +69,7 @@ void inspect_triangles(const CenteredModel& centered, Report& report) {
         });
     report.edge_on_triangles = findings.edge_on;
     report.center_on_surface = findings.on_surface;
+    report.center_inside = winding.any_solid();
 }
 
 std::uint64_t back_facing_samples(const CrossingGrid& crossings) {
@@ -183,15 +191,16 @@ Result bake_with(const Caster& cast, const Model& model, const Options& options,
         };
         PartFrame frame = place(center);
         CenteredModel centered = center_model(model, frame);
-        inspect_triangles(centered, report);
+        const Components components = find_components(model);
+        const bool ask_inside = options.layers == 1;
+        inspect_triangles(centered, components, ask_inside, report);
         if (report.center_on_surface && options.center == Center::bounds) {
             const double radius = frame.radius;
             frame = place(center_off_surface(model, center));
             centered = center_model(model, frame);
             report.center_moved = length(frame.center - center) / radius;
-            inspect_triangles(centered, report);
+            inspect_triangles(centered, components, ask_inside, report);
         }
-        const Components components = find_components(model);
         report.triangles = model.triangles.size();
         report.components = components.count;
         report.open_edges = components.open_edges;
@@ -218,7 +227,10 @@ Result bake_with(const Caster& cast, const Model& model, const Options& options,
         part.mapping = options.grid.mapping;
         part.center_inside = report.center_inside;
         pack_layers(shape, shared ? shape : color, options, part, result.map);
-        if (!part.mixed.empty()) report.mixed_triangles = mixed_share(part.mixed);
+        if (part.mapping == Mapping::octahedral) {
+            pack_mixed(mixed_triangles(shape, face_normals(centered)), part, result.map);
+            report.mixed_triangles = mixed_share(part.mixed);
+        }
         for (std::size_t k = 0; k < part.layers.size(); ++k) {
             report.layers.push_back(
                 {coverage(shape.surfaces[2 * k], shape.grid),

@@ -39,7 +39,7 @@ struct Report {
     std::uint64_t thin_samples = 0;        // with a surface that bounds no solid, stored as a thin shell
     std::uint64_t truncated_samples = 0;   // with more intervals than layers
     bool center_on_surface = false;        // the centre is closer to the surface than 1e-4 R
-    bool center_inside = false;            // the centre is in the solid (intervals.h); one layer: not asked
+    bool center_inside = false;            // the centre is in the solid (intervals.h; one layer: winding.h)
     double center_moved = 0;               // how far it was moved off the surface, in units of R
     std::vector<LayerReport> layers;       // as written
     std::optional<double> mixed_triangles; // share of the map's triangles (mixed.h); none for latlong

@@ -18,7 +18,8 @@ struct Interval {
 };
 
 SurfacePoint point(const Crossing& crossing, bool turn) {
-    return {crossing.radius, turn ? -crossing.normal : crossing.normal, crossing.color, false};
+    return {crossing.radius, crossing.triangle, turn ? -crossing.normal : crossing.normal, crossing.color,
+            false};
 }
 
 // The shell's normals face away from it on both sides, whichever way the triangle is wound.

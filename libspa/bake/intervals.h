@@ -15,7 +15,8 @@ namespace spa::bake {
 // One end of an interval along one direction; radius 0 = there is none.
 struct SurfacePoint {
     float radius = 0;
-    Vec3f normal; // points out of the solid
+    std::uint32_t triangle = 0; // that is crossed, index into Model::triangles
+    Vec3f normal;               // for shading; points out of the solid
     std::array<std::uint8_t, 4> color{};
     bool placed = false; // the inner end of a thin shell, which lies below the surface by definition
 };

@@ -2,7 +2,6 @@
 #include "pack.h"
 
 #include "color_image.h"
-#include "mixed.h"
 #include "sample_directions.h"
 
 #include <tbb/blocked_range.h>
@@ -31,12 +30,6 @@ ImageView encode_image(OwnedMap& map, const Grid& grid, ElementFormat format, En
                           }
                       });
     return view;
-}
-
-std::span<const std::byte> store(OwnedMap& map, const std::vector<std::byte>& bytes) {
-    map.pixels.push_back(std::make_unique<std::byte[]>(bytes.size()));
-    std::copy(bytes.begin(), bytes.end(), map.pixels.back().get());
-    return {map.pixels.back().get(), bytes.size()};
 }
 
 bool has_points(const std::vector<SurfacePoint>& surface) {
@@ -74,7 +67,12 @@ void pack_layers(const SurfaceGrid& shape, const SurfaceGrid& color, const Optio
             layer.inner = pack(outer + 1);
         part.layers.push_back(layer);
     }
-    if (shape.grid.mapping == Mapping::octahedral) part.mixed = store(map, mixed_triangles(shape));
+}
+
+void pack_mixed(const std::vector<std::byte>& mixed, Part& part, OwnedMap& map) {
+    map.pixels.push_back(std::make_unique<std::byte[]>(mixed.size()));
+    std::copy(mixed.begin(), mixed.end(), map.pixels.back().get());
+    part.mixed = {map.pixels.back().get(), mixed.size()};
 }
 
 double coverage(const std::vector<SurfacePoint>& surface, const Grid& grid) {

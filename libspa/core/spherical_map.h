@@ -87,8 +87,7 @@ struct Part {
     std::int32_t joint = -1; // index of the skin joint that the part follows; -1 = none
     // The centre lies in the solid: surface bounds the solid around it in every direction that has one, and a
     // direction without surface is an opening of the mesh (the open leg of a boot), not a silhouette. false:
-    // it lies outside, or it is not known; a bake of one layer, which sees the outermost surface alone, does
-    // not know.
+    // it lies outside, or it is not known.
     bool center_inside = false;
     ErrorFigures errors;
     std::vector<Layer> layers; // at least one

@@ -10,7 +10,9 @@
 #include "../../libspa/measure/compare.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <span>
 
 namespace spa::test {
@@ -93,6 +95,11 @@ Agreement Comparison::of(const Baked& other) const {
         result.color_max = std::max(result.color_max, s.color_max);
         result.normal = std::max(result.normal, s.normal_median);
     }
+    const auto mixed_here = radial_.result.map.map.parts.front().mixed;
+    const auto mixed_there = other.result.map.map.parts.front().mixed;
+    for (std::size_t i = 0; i < mixed_here.size(); ++i)
+        result.mixed +=
+            std::uint64_t(std::popcount(std::to_integer<unsigned>(mixed_here[i] ^ mixed_there[i])));
     const std::vector<bool> differs =
         differing_samples(radial_.result.map.map, other.result.map.map, options_.grid);
     for (std::size_t s = 0; s < differs.size(); ++s) {

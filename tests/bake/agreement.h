@@ -19,6 +19,7 @@ struct Agreement {
     std::uint64_t ties = 0;      // of these: the ray passes within edge_tie of an edge of a triangle that one
                                  // caster reports and the other does not
     std::uint64_t unexplained = 0; // the others
+    std::uint64_t mixed = 0;       // triangles that are mixed in one map alone
 };
 
 // Distance between a ray and an edge in units of R: what float arithmetic cannot tell from 0.

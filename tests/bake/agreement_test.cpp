@@ -49,6 +49,7 @@ void expect_agreement(const Agreement& a, const std::string& what) {
                                  << ", colour " << a.color;
     EXPECT_EQ(a.unexplained, 0U) << what << ", of " << a.differing;
     EXPECT_LE(a.normal, 0.01) << what;
+    EXPECT_EQ(a.mixed, 0U) << what;
 }
 
 // With Embree and with every OpenGL there is, one layer and two.
