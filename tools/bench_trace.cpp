@@ -10,11 +10,11 @@
 
 #include "../formats/container/writer.h"
 #include "../formats/import/import.h"
+#include "../libspa/measure/stopwatch.h"
 #include "../libspa/trace/trace.h"
 #include "../samples/samples.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace spa::tools {
 
@@ -100,12 +100,12 @@ measure::FileTrip through_file(const SphericalMap& map, const trace::Ray& ray, u
     std::vector<double> seconds;
     trace::Hit hit;
     for (unsigned run = 0; run < runs; ++run) {
-        const auto start = std::chrono::steady_clock::now();
-        container::File file;
-        require(container::open(bytes, file), "benchmark");
-        const trace::TraceMap traced(file.map().parts.front());
-        trace::closest_hit(traced, ray, trace::no_flags, hit);
-        seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        seconds.push_back(measure::thread_seconds_of([&] {
+            container::File file;
+            require(container::open(bytes, file), "benchmark");
+            const trace::TraceMap traced(file.map().parts.front());
+            trace::closest_hit(traced, ray, trace::no_flags, hit);
+        }));
     }
     return {bytes.size(), measure::spread_of(seconds)};
 }

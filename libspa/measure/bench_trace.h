@@ -4,6 +4,7 @@
 #pragma once
 
 #include "bench_bake.h"
+#include "error_parts.h"
 #include "trace_methods.h"
 
 #include "../core/spherical_map.h"
@@ -31,18 +32,6 @@ struct SetErrors {
     double band_width = 0; // of the silhouette band, in R
     RayErrors errors;
 };
-
-// Mean |dt| in R between neighbours in a row of stand-ins, over chords that all of them hit:
-// model - map without bits or texels to speak of (f32, ideal_cells) - the same at the map's size - with the
-// map's bits - with the tracer's arithmetic. No map is farther from the model than their sum.
-struct ErrorParts {
-    double star = 0, resolution = 0, quantization = 0;
-    // From the stored surface as triangles, in Embree's robust mode. Maps of one layer whose samples all have
-    // a surface alone: the surface of others is no mesh.
-    std::optional<double> solver;
-    double total = 0; // model - map as traced, over the same chords
-};
-constexpr std::uint32_t ideal_cells = 1024;
 
 // A map in a file and back.
 struct FileTrip {
@@ -95,7 +84,7 @@ struct TraceBenchOptions {
     std::function<FileTrip(const SphericalMap& map, const trace::Ray& ray, unsigned runs)> through_file;
     std::function<bool(double share, const std::string& step)> progress; // false: cancels; may be empty
 };
-// From 0.05 to 5e-5 R, three a decade.
+// From 0.05 to 1.1e-5 R, three a decade.
 std::vector<double> default_lod_errors();
 
 // Everything is timed in turns, run by run. Throws as bake_model does, and bake::Cancelled.

@@ -112,27 +112,6 @@ shader::SpaFan fan_options(std::uint32_t tests) {
 
 } // namespace
 
-const char* name(Family family) {
-    switch (family) {
-    case Family::fan: return "fan";
-    case Family::march: return "march";
-    case Family::projective: return "projective";
-    case Family::mesh: return "mesh";
-    case Family::lod: return "lod";
-    case Family::surface: break;
-    }
-    return "surface";
-}
-
-RayBatch::RayBatch(RaySet set, std::vector<trace::Ray> rays)
-    : hits(rays.size()), blocked(rays.size()), set_(set), rays_(std::move(rays)) {}
-
-trace::EmbreeRays& RayBatch::embree(trace::EmbreeCall call) {
-    const auto found = embree_.find(call);
-    if (found != embree_.end()) return found->second;
-    return embree_.emplace(call, trace::EmbreeRays(call, rays_)).first->second;
-}
-
 std::unique_ptr<TraceMethod> map_method(Family family, const Part& part, std::uint32_t layers,
                                         std::uint32_t tests) {
     std::unique_ptr<TraceMethod> method;

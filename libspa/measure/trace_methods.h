@@ -87,15 +87,26 @@ public:
     virtual void store_blocked(RayBatch&, CallKind) const {}
 };
 
+// All rays, in the caller's arena.
+void trace_all(const TraceMethod& method, RayBatch& batch, CallKind kind);
+// Streams where there are any.
+CallKind usual_kind(const TraceMethod& method);
+// What all rays meet, by the usual kind of call; or whether they are blocked, of a batch that asks for
+// occlusion.
+std::vector<RayAnswer> answers_of(const TraceMethod& method, RayBatch& batch);
+std::span<const std::uint8_t> blocked_of(const TraceMethod& method, RayBatch& batch);
+
 // Of a map; owns its trace image. part: need not outlive it. tests: of the fan, 0 = N(d2). colours: whether
 // answers have them.
 std::unique_ptr<TraceMethod> map_method(Family family, const Part& part, std::uint32_t layers,
                                         std::uint32_t tests);
 
 // Of triangles. normals: one a position, to interpolate in answers; empty, or a corner's is zero: the
-// geometric one. Builds in the caller's arena; seconds of the build are in build_seconds.
+// geometric one. build_seconds: of Embree's hierarchy; one_thread: on this thread alone, its own time
+// (stopwatch.h), else in the caller's arena by the wall.
 std::unique_ptr<TraceMethod> triangle_method(Family family, std::span<const Vec3f> positions,
                                              std::span<const Vec3f> normals,
-                                             std::span<const Triangle> triangles, double& build_seconds);
+                                             std::span<const Triangle> triangles, bool one_thread,
+                                             double& build_seconds);
 
 } // namespace spa::measure

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "stopwatch.h"
 #include "trace_methods.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 namespace spa::measure {
@@ -17,10 +19,20 @@ public:
         : peer_(positions, mesh), normals_(vertex_normals.begin(), vertex_normals.end()) {
         if (!normals_.empty()) corners_.assign(mesh.begin(), mesh.end());
         triangles = mesh.size();
-        bytes = peer_.bytes();
     }
 
-    [[nodiscard]] const trace::EmbreePeer& peer() const { return peer_; }
+    // Gives back the seconds.
+    double build(bool one_thread) {
+        double seconds = 0;
+        if (one_thread) {
+            tbb::task_arena arena(1);
+            arena.execute([&] { seconds = thread_seconds_of([&] { peer_.build(); }); });
+        } else {
+            seconds = seconds_of([&] { peer_.build(); });
+        }
+        bytes = peer_.bytes();
+        return seconds;
+    }
 
     [[nodiscard]] bool has_stream() const override { return true; }
     [[nodiscard]] std::string call_name(RaySet set, CallKind kind) const override {
@@ -36,10 +48,7 @@ public:
                 if (call == EmbreeCall::single || !trace::is_native(call)) continue;
                 trace::EmbreeRays& rays = batch.embree(call);
                 rays.reset(batch.rays());
-                const auto start = std::chrono::steady_clock::now();
-                trace_by(batch, rays, 0, few);
-                const double seconds =
-                    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+                const double seconds = thread_seconds_of([&] { trace_by(batch, rays, 0, few); });
                 if (!(seconds < least)) continue;
                 least = seconds;
                 best_[batch.set()] = call;
@@ -104,10 +113,11 @@ private:
 
 std::unique_ptr<TraceMethod> triangle_method(Family family, std::span<const Vec3f> positions,
                                              std::span<const Vec3f> normals,
-                                             std::span<const Triangle> triangles, double& build_seconds) {
+                                             std::span<const Triangle> triangles, bool one_thread,
+                                             double& build_seconds) {
     auto method = std::make_unique<TriangleMethod>(positions, normals, triangles);
     method->family = family;
-    build_seconds = method->peer().build_seconds();
+    build_seconds = method->build(one_thread);
     return method;
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -206,7 +205,6 @@ Vec2f EmbreeRays::barycentric(std::size_t ray) const {
 
 struct EmbreePeer::State {
     std::atomic<std::int64_t> bytes{0}; // outlives the device, which counts in it
-    double build_seconds = 0;
     DeviceOwner device;
     SceneOwner scene;
 };
@@ -228,17 +226,17 @@ EmbreePeer::EmbreePeer(std::span<const Vec3f> positions, std::span<const Triangl
     std::memcpy(indices, triangles.data(), triangles.size_bytes());
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(s.scene.get(), geometry.get());
-    const auto start = std::chrono::steady_clock::now();
-    rtcJoinCommitScene(s.scene.get());
-    s.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     check(s.device.get());
+}
+void EmbreePeer::build() {
+    rtcJoinCommitScene(state_->scene.get());
+    check(state_->device.get());
 }
 EmbreePeer::~EmbreePeer() = default;
 EmbreePeer::EmbreePeer(EmbreePeer&&) noexcept = default;
 EmbreePeer& EmbreePeer::operator=(EmbreePeer&&) noexcept = default;
 
 std::uint64_t EmbreePeer::bytes() const { return std::uint64_t(std::max<std::int64_t>(state_->bytes, 0)); }
-double EmbreePeer::build_seconds() const { return state_->build_seconds; }
 
 void EmbreePeer::closest_hits(EmbreeRays& rays, std::size_t begin, std::size_t end) const {
     const FlushDenormals modes;

@@ -64,17 +64,18 @@ private:
 // An immutable scene; tracing is thread-safe for ranges of rays that do not overlap.
 class EmbreePeer {
 public:
-    // Copies both. Builds on the threads of the caller's TBB arena, in the default quality. Throws
-    // Error{internal} if Embree fails, as for lack of memory.
+    // Copies both. Throws Error{internal} if Embree fails, as for lack of memory.
     EmbreePeer(std::span<const Vec3f> positions, std::span<const Triangle> triangles);
     ~EmbreePeer();
     EmbreePeer(EmbreePeer&&) noexcept;
     EmbreePeer& operator=(EmbreePeer&&) noexcept;
 
+    // Before the first ray: makes the hierarchy, in the default quality, on the threads of the caller's TBB
+    // arena. Throws as above.
+    void build();
+
     // What Embree holds: vertices, indices and its hierarchy, by its own count.
     [[nodiscard]] std::uint64_t bytes() const;
-    // Of the hierarchy's build, without the copies of vertices and indices.
-    [[nodiscard]] double build_seconds() const;
 
     // Rays begin .. end; begin is a multiple of 16, end too or the number of rays.
     void closest_hits(EmbreeRays& rays, std::size_t begin, std::size_t end) const;

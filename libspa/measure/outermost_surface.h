@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The outermost surface that a part stores, as triangles.
+#pragma once
+
+#include "map_surface.h"
+
+#include "../core/spherical_map.h"
+
+namespace spa::measure {
+
+// In the part's frame, in units of its radius; triangles without area are left out. complete: whether every
+// sample has a surface, so that the triangles close. O(samples).
+MapSurface outermost_surface(const Part& part, bool& complete);
+
+} // namespace spa::measure
