@@ -79,7 +79,8 @@ HWY_INLINE void finish(const shader::SpaMap& map, const StreamBlock& block, cons
     const VU real_y = hn::And(hn::Xor(cell.y, stretch.flip_y), low_bits);
     const VF x = to_floats(real_x);
     const VF y = to_floats(real_y);
-    const auto cells = float((map.width - 1) / 2);
+    const std::uint32_t half_cells = (map.width - 1) / 2;
+    const auto cells = float(half_cells);
     const PlaneLanes& plane = cross.plane;
     const auto signed_by = [](MF negative, VF v) { return hn::IfThenElse(negative, hn::Neg(v), v); };
     const auto plane_minus_one = [&](VF t) {
@@ -117,7 +118,7 @@ HWY_INLINE void finish(const shader::SpaMap& map, const StreamBlock& block, cons
     const VF gy = hn::Mul(plane.v, hn::Set(df, cells));
     const VF gl = hn::Sub(hn::Sub(plane.c, hn::Mul(plane.u, x)), hn::Mul(plane.v, y));
     const MF upper = hn::RebindMask(
-        df, hn::Lt(hn::Add(hn::Add(real_x, real_y), cross.beyond), hn::Set(du, (map.width - 1) / 2)));
+        df, hn::Lt(hn::Add(hn::Add(real_x, real_y), cross.beyond), hn::Set(du, half_cells)));
     const VF gradient_x = signed_by(left, hn::Add(gl, gx));
     const VF gradient_y = signed_by(below, hn::Add(gl, gy));
     const VF gradient_z = hn::IfThenElse(upper, gl, hn::Neg(hn::Add(hn::Add(gl, gx), gy)));

@@ -217,7 +217,7 @@ struct ByText {
 };
 
 // Takes the lanes of `mask` through their cells, one after the other.
-HWY_NOINLINE ByText cross_by_text(const shader::SpaMap& map, const WalkConstants& constants,
+inline HWY_NOINLINE ByText cross_by_text(const shader::SpaMap& map, const WalkConstants& constants,
                                   const StretchBlock& jobs, const WalkLanes& lanes, VF s1, MU mask) {
     HWY_ALIGN std::uint32_t x[hn::MaxLanes(du)], y[hn::MaxLanes(du)], job[hn::MaxLanes(du)],
         wanted[hn::MaxLanes(du)], state[hn::MaxLanes(du)], event[hn::MaxLanes(du)] = {};
@@ -297,7 +297,7 @@ HWY_INLINE MU cross(const shader::SpaMap& map, const WalkConstants& constants, c
 }
 
 // Stretches that end in the solid: the ray's next one begins there.
-HWY_NOINLINE void keep_states(const StretchBlock& jobs, VU job, MU inside, ChordBlock& chords) {
+inline HWY_NOINLINE void keep_states(const StretchBlock& jobs, VU job, MU inside, ChordBlock& chords) {
     HWY_ALIGN std::uint32_t all[hn::MaxLanes(du)], wanted[hn::MaxLanes(du)];
     hn::Store(job, du, all);
     hn::Store(hn::VecFromMask(du, inside), du, wanted);
