@@ -50,6 +50,7 @@ measure::Measurement measure_with_progress(const BakeArguments& arguments, const
     options.color_samples = arguments.options.samples;
     options.layers = arguments.options.layers;
     options.threads = arguments.options.threads;
+    options.rays = measure::RayOptions{}.rays;
     return measure::measure_map(model, part, options, [&progress](double share) {
         progress.update(share);
         return interrupt_signal() == 0;

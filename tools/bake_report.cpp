@@ -93,7 +93,10 @@ std::string mesh_text(const bake::Report& bake) {
 
 std::string measured_text(const measure::Measurement& m) {
     return "texels to source " + significant(m.texel_distance.max, 3) + " R at most, source to map " +
-           significant(m.surface_distance.max, 3) + " R, " + percent(m.captured_area, 2) + " captured";
+           significant(m.surface_distance.max, 3) + " R, " + percent(m.captured_area, 2) + " captured" +
+           (m.rays ? ", " + percent(m.rays->false_hits(), 2) + " of rays hit falsely, " +
+                         percent(m.rays->missed_hits(), 2) + " miss"
+                   : "");
 }
 
 } // namespace

@@ -48,18 +48,34 @@ constexpr std::array thresholds{
     Threshold{"--min-coverage", "SHARE",
               "Smallest share of texels that have a surface where the source has one, 0 to 1",
               [](const Measurement& m) { return m.coverage.share(); }, nullptr},
+    Threshold{"--max-false-hits", "SHARE", "Largest share of rays that hit the map alone, 0 to 1",
+              [](const Measurement& m) { return m.rays->false_hits(); }, nullptr},
+    Threshold{"--max-missed-hits", "SHARE", "Largest share of rays that hit the source alone, 0 to 1",
+              [](const Measurement& m) { return m.rays->missed_hits(); }, nullptr},
 };
+
+bool is_of_rays(const Threshold& threshold) { return std::string(threshold.option).ends_with("-hits"); }
+
+bool is_share(const Threshold& threshold) { return std::string(threshold.value_name) == "SHARE"; }
 
 struct Arguments {
     std::string input;
     std::filesystem::path source, heat;
     std::array<std::optional<double>, thresholds.size()> limits;
+    std::uint32_t rays = 0;
     std::optional<ReportFormat> format;
     bool quiet = false;
 
     [[nodiscard]] bool needs_source() const {
-        return !source.empty() || !heat.empty() ||
+        return !source.empty() || !heat.empty() || rays > 0 ||
                std::any_of(limits.begin(), limits.end(), [](const auto& limit) { return limit.has_value(); });
+    }
+    // As given, or the default where a threshold asks for them.
+    [[nodiscard]] std::uint32_t needed_rays() const {
+        if (rays > 0) return rays;
+        for (std::size_t i = 0; i < thresholds.size(); ++i)
+            if (limits[i] && is_of_rays(thresholds[i])) return measure::RayOptions{}.rays;
+        return 0;
     }
 };
 
@@ -133,6 +149,11 @@ void measure_source(const Arguments& arguments, const MapFile& file, const std::
         options.color_samples = std::max(1U, samples.get<std::uint32_t>());
     if (layers.is_number_unsigned() && layers.get<std::uint64_t>() <= 64)
         options.layers = layers.get<std::uint32_t>();
+    options.rays = arguments.needed_rays();
+    if (options.rays > 0 && part.mapping != Mapping::octahedral)
+        throw Error(ExitCode::unsupported, file.name +
+                                               ": rays are traced through octahedral maps; this one is " +
+                                               name(part.mapping));
     ProgressReport progress("measuring " + title, arguments.quiet);
     const InterruptGuard guard;
     validation.measurement = measure::measure_map(source.model, part, options, [&](double share) {
@@ -204,10 +225,17 @@ Verb validate_verb() {
             "all the same, with a warning. A source that is not found is an error if anything was asked of "
             "it: a "
             "threshold, a picture.\n\n"
+            "--rays N traces N random rays as renderers send them from diffuse bounces and close surfaces, "
+            "through the map and through the asset's triangles: how many hit the map alone or the asset "
+            "alone, "
+            "in the band of silhouettes and elsewhere, how many of those no resolution would mend (E_star), "
+            "and "
+            "how far hits, normals and colours are apart.\n\n"
             "--heat draws for every surface where it is wrong and by how much.",
         .examples = "$ spa validate boot.spa\n"
                     "$ spa validate boot.spa --format text\n"
                     "$ spa validate boot.spa --source models/boot.glb --heat heat.png\n"
+                    "$ spa validate boot.spa --rays 100000 --format text\n"
                     "$ spa validate boot.spa --max-surface-distance 0.01 --min-captured 0.99\n"
                     "$ spa validate boot.spa --format json | jq .figures.hausdorff",
         .see_also = "spa bake, spa compare, spa inspect",
@@ -219,12 +247,18 @@ Verb validate_verb() {
             add_path(app, "--source", "MESH", "The asset to measure against", arguments->source);
             add_path(app, "--heat", "OUT.png", "Draw the errors of every texel into this file",
                      arguments->heat);
+            add_text(
+                app, "--rays", "N",
+                "Trace N secondary rays through the map and through the source, and report how they differ",
+                [arguments](const std::string& text) {
+                    arguments->rays = parse_number("--rays", text, 1, 100'000'000);
+                });
             for (std::size_t i = 0; i < thresholds.size(); ++i)
                 add_text(app, thresholds[i].option, thresholds[i].value_name, thresholds[i].description,
                          [arguments, i](const std::string& text) {
                              const std::string option = thresholds[i].option;
                              const double limit = parse_measure(option, text);
-                             if (option.starts_with("--min") && limit > 1)
+                             if (is_share(thresholds[i]) && limit > 1)
                                  throw Error(ExitCode::usage,
                                              option + ": '" + text + "' is above 1; a share is from 0 to 1");
                              arguments->limits[i] = limit;

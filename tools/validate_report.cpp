@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "validate_report.h"
 
+#include "ray_report.h"
 #include "text.h"
 
 namespace spa::tools {
@@ -99,6 +100,7 @@ Json figures_json(const Measurement& m) {
          {{"star", distribution_json(m.star_error)},
           {"resolution", distribution_json(m.resolution_error)},
           {"quantization", distribution_json(m.quantization.error)}}},
+        {"rays", m.rays ? rays_json(*m.rays) : Json(nullptr)},
     };
 }
 
@@ -154,6 +156,7 @@ std::string validate_text(const MapFile& file, const Validation& v) {
                                           : ": " + std::to_string(m.quantization.above) + " texels above"));
     if (m.shell_ends > 0)
         text += line("thin shells", std::to_string(m.shell_ends) + " inner ends, not measured");
+    if (m.rays) text += rays_text(*m.rays, 20);
     for (const measure::Finding& finding : v.findings) text += line("finding", finding.message);
     for (const Judged& judged : v.thresholds)
         text += line("threshold", judged.met ? judged.option + " " + significant(judged.limit, 6) +

@@ -234,16 +234,22 @@ Measurement measure_map(const Model& model, const Part& part, const MeasureOptio
                               [&progress, from, to](double f) { return progress(from + (to - from) * f); })
                         : bake::Progress{};
     };
+    const bool traces = options.rays > 0 && part.mapping == Mapping::octahedral;
+    const double end = traces ? 0.7 : 1; // of the progress, without rays
     Measurement result;
     tbb::task_arena arena(bake::arena_concurrency(options.threads));
     arena.execute([&] {
-        const Reference reference(model, part, options.layers, options.threads, between(0, 0.3));
+        const Reference reference(model, part, options.layers, options.threads, between(0, 0.3 * end));
         result.source_radius = reference.source_radius();
-        result.texels =
-            texel_errors(part, reference, options.color_samples, options.threads, between(0.3, 0.6));
-        measure_surface(model, part, reference, options, between(0.6, 1), result);
+        result.texels = texel_errors(part, reference, options.color_samples, options.threads,
+                                     between(0.3 * end, 0.6 * end));
+        measure_surface(model, part, reference, options, between(0.6 * end, end), result);
     });
     summarize(part, part.radius / result.source_radius, result);
+    if (traces) {
+        const RayOptions rays{.rays = options.rays, .layers = options.layers, .threads = options.threads};
+        result.rays = measure_rays(model, part, rays, between(end, 1));
+    }
     return result;
 }
 

@@ -4,6 +4,7 @@
 // ../../docs/measures.md.
 #pragma once
 
+#include "map_rays.h"
 #include "statistics.h"
 #include "texel_errors.h"
 
@@ -18,6 +19,8 @@ struct MeasureOptions {
     std::uint32_t layers = 0; // as it was baked (bake::Options::layers): a map leaves out layers that no
                               // sample met; 0: as many as it holds
     unsigned threads = 0;     // 0 = all cores; the result does not depend on it
+    // Traced through the map and the model (map_rays.h); none through maps that are not octahedral.
+    std::uint32_t rays = 0;
 };
 
 struct CoverageFigures {
@@ -72,6 +75,7 @@ struct Measurement {
     std::uint64_t normals_above = 0; // normals off by more than their element format explains
     std::optional<WorstTexel> worst_distance, worst_normal, worst_color, worst_alpha, worst_depth;
     std::optional<WorstTexel> first_missing, first_extra;
+    std::optional<RayFigures> rays; // with MeasureOptions::rays
     std::vector<TexelErrors> texels;
     std::vector<SurfaceError> surface;
 

@@ -85,6 +85,34 @@ TEST_F(ValidateVerb, EveryThresholdIsJudged) {
     EXPECT_EQ(validate({"torus.spa", "--heat", "torus.glb"}).exit_code, 1) << "the source, found beside it";
 }
 
+// One layer fills the hole of a torus; two keep it open.
+TEST_F(ValidateVerb, RaysFindTheHoleOfATorusFilled) {
+    const json report = json::parse(validate({"torus.spa", "--rays", "6000", "--format", "json"}).out);
+    EXPECT_EQ(schema_error(load_schema("validate"), report), "");
+    const json& rays = report["figures"]["rays"];
+    EXPECT_EQ(rays["count"], 6000);
+    EXPECT_GT(rays["false_hits"]["share"], 0.02);
+    const double all =
+        rays["false_hits"]["band"].get<double>() + rays["false_hits"]["interior"].get<double>();
+    EXPECT_GT(rays["false_hits"]["star"], 0.8 * all);
+    EXPECT_NE(validate({"torus.spa", "--rays", "6000", "--format", "text"}).out.find("false hits"),
+              std::string::npos);
+    const Outcome failed = validate({"torus.spa", "--rays", "6000", "--max-false-hits", "0.01"});
+    EXPECT_EQ(failed.exit_code, 6);
+    EXPECT_NE(failed.err.find("torus.spa: --max-false-hits 0.01 is exceeded: "), std::string::npos)
+        << failed.err;
+    ASSERT_EQ(run({"bake", "torus.glb", "-o", "two.spa", "--size", "64"}).exit_code, 0);
+    const Outcome met =
+        validate({"two.spa", "--rays", "6000", "--max-false-hits", "0.01", "--max-missed-hits", "0.01"});
+    EXPECT_EQ(met.exit_code, 0) << met.err;
+    ASSERT_EQ(
+        run({"bake", "torus.glb", "-o", "latlong.spa", "--mapping", "latlong", "--size", "64x48"}).exit_code,
+        0);
+    EXPECT_EQ(validate({"latlong.spa", "--rays", "10"}).exit_code, 5);
+    EXPECT_EQ(validate({"torus.spa", "--rays", "0"}).exit_code, 1);
+    EXPECT_EQ(validate({"torus.spa", "--max-false-hits", "2"}).exit_code, 1);
+}
+
 TEST_F(ValidateVerb, ADefectIsNamed) {
     write_with_hole("hole.spa");
     const Outcome outcome = validate({"hole.spa"});
@@ -159,7 +187,9 @@ TEST_F(ValidateVerb, BakeWritesTheSameFigures) {
     ASSERT_EQ(baked.exit_code, 0) << baked.err;
     const json report = json::parse(baked.out);
     EXPECT_EQ(schema_error(load_schema("bake"), report), "");
-    const json validated = json::parse(validate({"m.spa", "--format", "json"}).out);
+    const std::string rays = std::to_string(report["figures"]["rays"]["count"].get<int>());
+    const json validated = json::parse(validate({"m.spa", "--format", "json", "--rays", rays}).out);
+    EXPECT_EQ(schema_error(load_schema("validate"), validated), "");
     EXPECT_EQ(report["figures"], validated["figures"]);
     const json inspected = json::parse(run({"inspect", "m.spa", "--format", "json"}).out);
     EXPECT_EQ(inspected["metadata"]["figures"], validated["figures"]);

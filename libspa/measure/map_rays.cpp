@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "map_rays.h"
+
+#include "ray_sets.h"
+#include "ray_truth.h"
+#include "star_map.h"
+
+#include "../bake/arena.h"
+#include "../bake/center.h"
+#include "../core/error.h"
+#include "../trace/scene.h"
+#include "../trace/triangle_scene.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace spa::measure {
+namespace {
+
+constexpr std::uint64_t seed = 20240502;
+
+double largest_radius(const Model& model, Vec3d center, const Mat3& to_frame) {
+    double radius = 0;
+    for (const Triangle& triangle : model.triangles) {
+        for (const std::uint32_t v : triangle.vertex)
+            radius = std::max(radius, length(to_frame * (to_double(model.positions[v]) - center)));
+    }
+    if (!(radius > 0) || !std::isfinite(radius))
+        throw Error(ExitCode::invalid_data,
+                    "the source model has no extent: there is nothing to measure against");
+    return radius * (1 + 1e-7); // as make_part_frame rounds it
+}
+
+std::vector<trace::Ray> secondary_rays(std::uint32_t count, const bake::CenteredModel& model) {
+    constexpr std::array sets{RaySet::bounce, RaySet::chords, RaySet::leaving};
+    std::vector<trace::Ray> rays;
+    for (std::uint32_t i = 0; i < sets.size(); ++i) {
+        const auto share = std::uint32_t((count + i) / sets.size());
+        const auto some = make_rays(sets[i], share, seed + i, model.positions, model.model->triangles);
+        rays.insert(rays.end(), some.begin(), some.end());
+    }
+    return rays;
+}
+
+// Colours of a surface that a ray meets, whatever its coverage: the ray has hit it.
+std::array<std::uint8_t, 4> color_of(const trace::Shade& shade) {
+    if (!shade.has_color) return {};
+    return {linear_to_srgb(shade.color.x), linear_to_srgb(shade.color.y), linear_to_srgb(shade.color.z),
+            std::uint8_t(255)};
+}
+
+std::vector<RayAnswer> answers_of(const trace::Scene& scene, const std::vector<trace::Ray>& rays) {
+    std::vector<trace::Hit> hits(rays.size());
+    scene.closest_hits(rays, trace::no_flags, hits);
+    std::vector<RayAnswer> answers(rays.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            if (!hits[i].valid()) continue;
+            const trace::Shade shade = scene.shade(hits[i]);
+            answers[i] = {hits[i].t, shade.normal, color_of(shade)};
+        }
+    });
+    return answers;
+}
+
+// From object space to that of the rays.
+trace::Affine to_unit_sphere(Vec3d center, double radius) {
+    const double scale = 1 / radius;
+    return {{{{scale, 0, 0}, {0, scale, 0}, {0, 0, scale}}}, center * -scale};
+}
+
+class Measure {
+public:
+    Measure(const Model& model, const Part& part, const RayOptions& options, const bake::Progress& progress)
+        : model_(model), part_(part), options_(options), progress_(progress) {}
+
+    RayFigures run() {
+        const double radius = largest_radius(model_, part_.center, Mat3{});
+        const bake::CenteredModel centered = bake::center_model(model_, {part_.center, Mat3{}, radius});
+        const trace::TriangleScene triangles(centered.positions, model_.triangles);
+        const RayTruth judge(centered, triangles);
+        const std::vector<trace::Ray> rays = secondary_rays(options_.rays, centered);
+        step(0.1);
+        const std::vector<RayAnswer> truth = judge.trace(rays);
+        step(0.2);
+        const double cells = double(part_.layers.front().outer.depth.width) - 1;
+        RayFigures figures;
+        figures.band_width =
+            2 * (2 / cells) * part_.radius / largest_radius(model_, part_.center, inverse(part_.frame));
+        const auto band = judge.silhouette_band(rays, truth, float(figures.band_width));
+        step(0.5);
+
+        const trace::Affine placed = to_unit_sphere(part_.center, radius);
+        const trace::TraceMap map(part_);
+        trace::Scene scene;
+        scene.add(map, part_, placed);
+        const std::vector<RayAnswer> answers = answers_of(scene, rays);
+        figures.errors = compare_answers(rays, truth, answers, band);
+        step(0.6);
+        attribute(rays, truth, answers, placed, figures);
+        return figures;
+    }
+
+private:
+    void step(double share) const {
+        if (progress_ && !progress_(share)) throw bake::Cancelled{};
+    }
+
+    // Which of the false answers the star envelope gives too.
+    void attribute(const std::vector<trace::Ray>& rays, const std::vector<RayAnswer>& truth,
+                   const std::vector<RayAnswer>& answers, const trace::Affine& placed,
+                   RayFigures& figures) const {
+        std::vector<trace::Ray> wrong;
+        std::vector<bool> extra;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (truth[i].hits() == answers[i].hits()) continue;
+            wrong.push_back(rays[i]);
+            extra.push_back(answers[i].hits());
+        }
+        if (wrong.empty()) return;
+        const double radius = largest_radius(model_, part_.center, inverse(part_.frame));
+        const bake::OwnedMap star =
+            star_map(model_, part_, radius, options_.layers, options_.star_cells, options_.threads,
+                     [this](double share) { return !progress_ || progress_(0.6 + 0.4 * share); });
+        const Part& part = star.map.parts.front();
+        const trace::TraceMap map(part, {.layers = 0, .images = false});
+        trace::Scene scene;
+        scene.add(map, part, placed);
+        std::vector<std::uint8_t> blocked(wrong.size());
+        scene.occluded(wrong, trace::no_flags, blocked);
+        for (std::size_t i = 0; i < wrong.size(); ++i) {
+            if (extra[i] && blocked[i] != 0) ++figures.star_extra;
+            if (!extra[i] && blocked[i] == 0) ++figures.star_missed;
+        }
+    }
+
+    const Model& model_;
+    const Part& part_;
+    const RayOptions& options_;
+    const bake::Progress& progress_;
+};
+
+} // namespace
+
+RayFigures measure_rays(const Model& model, const Part& part, const RayOptions& options,
+                        const bake::Progress& progress) {
+    if (part.mapping != Mapping::octahedral)
+        throw Error(ExitCode::unsupported,
+                    std::string("rays are traced through octahedral maps; this one is ") +
+                        name(part.mapping));
+    RayFigures figures;
+    tbb::task_arena arena(bake::arena_concurrency(options.threads));
+    arena.execute([&] { figures = Measure(model, part, options, progress).run(); });
+    return figures;
+}
+
+} // namespace spa::measure
