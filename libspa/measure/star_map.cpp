@@ -2,6 +2,7 @@
 #include "star_map.h"
 
 #include "../bake/center.h"
+#include "../bake/mixed.h"
 #include "../bake/pack.h"
 #include "../bake/radial.h"
 #include "../mesh/components.h"
@@ -26,6 +27,7 @@ bake::OwnedMap star_map(const Model& model, const Part& part, double radius, std
     star.center = part.center;
     star.frame = part.frame;
     star.radius = radius;
+    star.center_inside = part.center_inside;
     bake::SurfaceGrid surfaces;
     if (outermost_only) {
         surfaces = bake::outermost_surface(crossings);
@@ -34,11 +36,10 @@ bake::OwnedMap star_map(const Model& model, const Part& part, double radius, std
         const bake::Orientation orientation = bake::orient_components(crossings, components);
         bake::IntervalStatistics statistics;
         surfaces = bake::pair_intervals(crossings, components, orientation, options.layers, statistics);
-        star.center_inside =
-            std::find(orientation.solid.begin(), orientation.solid.end(), true) != orientation.solid.end();
     }
     bake::OwnedMap map;
     bake::pack_layers(surfaces, surfaces, options, star, map);
+    bake::pack_mixed(bake::mixed_triangles(surfaces, bake::face_normals(centered)), star, map);
     map.map.parts.push_back(std::move(star));
     return map;
 }
