@@ -105,7 +105,7 @@ SPA_FUNCTION SpaEvent spa_no_event() {
 
 SPA_FUNCTION float spa_at(SpaPlane plane, float u, float v) { return plane.c + plane.u * u + plane.v * v; }
 
-SPA_FUNCTION SpaPlane spa_load_plane(SpaMap map, uint place) {
+SPA_FUNCTION SpaPlane spa_load_plane(SPA_IN(SpaMap) map, uint place) {
     SpaPlane plane;
     plane.c = spa_float(spa_load(map.words, place));
     plane.u = spa_float(spa_load(map.words, place + 1u));
@@ -114,7 +114,7 @@ SPA_FUNCTION SpaPlane spa_load_plane(SpaMap map, uint place) {
 }
 
 // The plane through a pure triangle's samples of one surface.
-SPA_FUNCTION SpaPlane spa_sample_plane(SpaMap map, SpaTriangle tri, uint surface) {
+SPA_FUNCTION SpaPlane spa_sample_plane(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, uint surface) {
     uint place = map.samples + surface * (map.width * map.height) + tri.corner;
     float w10 = spa_float(spa_load(map.words, place + tri.step_x));
     float w01 = spa_float(spa_load(map.words, place + tri.step_y));
@@ -133,7 +133,7 @@ SPA_FUNCTION SpaPlane spa_sample_plane(SpaMap map, SpaTriangle tri, uint surface
     return plane;
 }
 
-SPA_FUNCTION SpaPrism spa_prism(SpaMap map, SpaTriangle tri, uint index) {
+SPA_FUNCTION SpaPrism spa_prism(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, uint index) {
     SpaPrism prism;
     if (tri.prisms == SPA_PURE) {
         prism.outer = spa_sample_plane(map, tri, 2u * index);
@@ -173,14 +173,14 @@ SPA_FUNCTION SpaPrism spa_no_prism() {
 }
 
 // How many prisms to look at.
-SPA_FUNCTION uint spa_prisms(SpaMap map, SpaTriangle tri) {
+SPA_FUNCTION uint spa_prisms(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri) {
     return tri.prisms == SPA_PURE ? (map.surfaces + 1u) / 2u : tri.prisms;
 }
 
 // Keeps of `clip` what lies where a function is >= 0 that has the values g0 and g1 at the piece's ends. Never
 // asks for a change of sign: what is inside at an end stays inside there. slack: how far below 0 a function
 // may begin that rises, or stays so.
-SPA_FUNCTION void spa_clip(SPA_INOUT(SpaClip) clip, SpaPiece piece, float g0, float g1, float slack,
+SPA_FUNCTION void spa_clip(SPA_INOUT(SpaClip) clip, SPA_IN(SpaPiece) piece, float g0, float g1, float slack,
                            uint by) {
     float least = g0 < 0.0f || g0 <= g1 ? 0.0f - slack : 0.0f;
     if (g0 < least && g1 < least) {
@@ -202,7 +202,8 @@ SPA_FUNCTION void spa_clip(SPA_INOUT(SpaClip) clip, SpaPiece piece, float g0, fl
 
 // The piece inside a prism; empty if s1 < s0. slack: 0, or SPA_SLACK in the
 // solid.
-SPA_FUNCTION SpaClip spa_clip_prism(SpaMap map, SpaPrism prism, SpaPiece piece, float slack) {
+SPA_FUNCTION SpaClip spa_clip_prism(SPA_IN(SpaMap) map, SPA_IN(SpaPrism) prism, SPA_IN(SpaPiece) piece,
+                                    float slack) {
     SpaClip clip;
     clip.s0 = piece.s0;
     clip.s1 = piece.s1;
@@ -211,6 +212,7 @@ SPA_FUNCTION SpaClip spa_clip_prism(SpaMap map, SpaPrism prism, SpaPiece piece, 
     float by_w = slack * piece.w0;
     spa_clip(clip, piece, piece.w0 - spa_at(prism.outer, piece.u0, piece.v0),
              piece.w1 - spa_at(prism.outer, piece.u1, piece.v1), by_w, SPA_BY_OUTER);
+    if (clip.s1 < clip.s0) return clip;
     if (prism.inner.c < SPA_FAR)
         spa_clip(clip, piece, spa_at(prism.inner, piece.u0, piece.v0) - piece.w0,
                  spa_at(prism.inner, piece.u1, piece.v1) - piece.w1, by_w, SPA_BY_INNER);
@@ -248,8 +250,8 @@ SPA_FUNCTION SpaPlane spa_edge(uint beyond, float u, float v, float towards) {
 }
 
 // What the ray passes at sigma s, one end of a prism's clip.
-SPA_FUNCTION SpaEvent spa_event(SpaMap map, SpaTriangle tri, SpaPrism prism, SpaPiece piece, float s, uint by,
-                                bool front) {
+SPA_FUNCTION SpaEvent spa_event(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, SPA_IN(SpaPrism) prism,
+                                SPA_IN(SpaPiece) piece, float s, uint by, bool front) {
     SpaEvent event;
     event.s = s;
     event.by = by;
@@ -285,7 +287,7 @@ SPA_FUNCTION SpaEvent spa_event(SpaMap map, SpaTriangle tri, SpaPrism prism, Spa
 
 // Whether the ray at sigma s is between a prism's ends, or outside them by no more than `slack`, relative to
 // w; slack < 0: inside by more than that.
-SPA_FUNCTION bool spa_touches(SpaPrism prism, SpaPiece piece, float s, float slack) {
+SPA_FUNCTION bool spa_touches(SPA_IN(SpaPrism) prism, SPA_IN(SpaPiece) piece, float s, float slack) {
     float f = piece.s1 > piece.s0 ? (s - piece.s0) / (piece.s1 - piece.s0) : 0.0f;
     float u = piece.u0 + f * (piece.u1 - piece.u0);
     float v = piece.v0 + f * (piece.v1 - piece.v0);
@@ -294,7 +296,7 @@ SPA_FUNCTION bool spa_touches(SpaPrism prism, SpaPiece piece, float s, float sla
 }
 
 // Whether the piece begins in the prism, but by rounding: it leaves it by an end that it is at.
-SPA_FUNCTION bool spa_leaves(SpaPrism prism, SpaPiece piece, SpaClip clip) {
+SPA_FUNCTION bool spa_leaves(SPA_IN(SpaPrism) prism, SPA_IN(SpaPiece) piece, SPA_IN(SpaClip) clip) {
     if (clip.by0 != SPA_BY_EDGE || clip.s1 >= piece.s1) return false;
     float outer = piece.w0 - spa_at(prism.outer, piece.u0, piece.v0);
     float inner = spa_at(prism.inner, piece.u0, piece.v0) - piece.w0;
@@ -303,7 +305,7 @@ SPA_FUNCTION bool spa_leaves(SpaPrism prism, SpaPiece piece, SpaClip clip) {
            (clip.by1 == SPA_BY_INNER && inner < small && outer >= small);
 }
 
-SPA_FUNCTION bool spa_silent(SpaPrism prism, SpaEvent event, uint flags) {
+SPA_FUNCTION bool spa_silent(SPA_IN(SpaPrism) prism, SPA_IN(SpaEvent) event, uint flags) {
     if (event.by >= SPA_BY_HALF_PLANE && ((prism.open >> (event.by - SPA_BY_HALF_PLANE)) & 1u) != 0u)
         return true;
     return (flags & (event.front ? SPA_CULL_FRONT : SPA_CULL_BACK)) != 0u;
@@ -311,8 +313,8 @@ SPA_FUNCTION bool spa_silent(SpaPrism prism, SpaEvent event, uint flags) {
 
 // Follows the ray through one triangle. state: whether the ray is in the solid, before and after. True:
 // `event` is to be reported.
-SPA_FUNCTION bool spa_cross(SpaMap map, SpaTriangle tri, SpaPiece piece, uint flags, SPA_INOUT(uint) state,
-                            SPA_INOUT(SpaEvent) event) {
+SPA_FUNCTION bool spa_cross(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, SPA_IN(SpaPiece) piece, uint flags,
+                            SPA_INOUT(uint) state, SPA_INOUT(SpaEvent) event) {
     uint count = spa_prisms(map, tri);
     float at = piece.s0;
     if (state == SPA_UNKNOWN) {

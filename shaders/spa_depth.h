@@ -8,19 +8,19 @@
 
 SPA_BEGIN
 
-SPA_FUNCTION float spa_depth_at(SpaMap map, uint index) {
+SPA_FUNCTION float spa_depth_at(SPA_IN(SpaMap) map, uint index) {
     return spa_float(spa_load(map.words, map.depths + index));
 }
 
 // The depth of the sample next to a direction of any length; 0 = no surface there.
-SPA_FUNCTION float spa_depth_nearest(SpaMap map, float3 direction) {
+SPA_FUNCTION float spa_depth_nearest(SPA_IN(SpaMap) map, float3 direction) {
     return spa_depth_at(map,
                         spa_nearest(map.mapping, map.width, map.height, spa_place(map.mapping, direction)));
 }
 
 // Bilinear between the four samples around a direction. Samples without surface take no part, so that nothing
 // slopes down to the centre; where they weigh more than half, there is no surface: 0.
-SPA_FUNCTION float spa_depth_bilinear(SpaMap map, float3 direction) {
+SPA_FUNCTION float spa_depth_bilinear(SPA_IN(SpaMap) map, float3 direction) {
     SpaFour four = spa_four(map.mapping, map.width, map.height, spa_place(map.mapping, direction));
     float depth0 = spa_depth_at(map, four.index0);
     float depth1 = spa_depth_at(map, four.index1);

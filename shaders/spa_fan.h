@@ -94,7 +94,7 @@ struct SpaSecant {
     float speed;      // length of the direction
 };
 
-SPA_FUNCTION SpaSecant spa_secant(SpaChord chord, float3 direction) {
+SPA_FUNCTION SpaSecant spa_secant(SPA_IN(SpaChord) chord, float3 direction) {
     SpaSecant secant;
     float dd = dot(direction, direction);
     float square = dot(chord.foot, chord.foot);
@@ -107,7 +107,7 @@ SPA_FUNCTION SpaSecant spa_secant(SpaChord chord, float3 direction) {
     return secant;
 }
 
-SPA_FUNCTION uint spa_fan_count(SpaFan options, float distance) {
+SPA_FUNCTION uint spa_fan_count(SPA_IN(SpaFan) options, float distance) {
     uint count = min(options.count, SPA_FAN_LIMIT);
     if (options.count_rule == SPA_FAN_FIXED || count == 0u) return count;
     float share = max(0.0f, 1.0f - distance);
@@ -115,7 +115,7 @@ SPA_FUNCTION uint spa_fan_count(SpaFan options, float distance) {
 }
 
 // When the ray is at test point i of `count`.
-SPA_FUNCTION float spa_fan_time(SpaFan options, SpaSecant secant, uint i, uint count) {
+SPA_FUNCTION float spa_fan_time(SPA_IN(SpaFan) options, SpaSecant secant, uint i, uint count) {
     float place = float(i + 1u) / float(count + 1u);
     if (options.ends == SPA_FAN_WITH_ENDS) place = count > 1u ? float(i) / float(count - 1u) : 0.5f;
     if (options.ends == SPA_FAN_HALF_ENDS) place = (float(i) + 0.5f) / float(count);
@@ -135,7 +135,7 @@ SPA_FUNCTION uint spa_fan_from_middle(uint k, uint count) {
     return (k & 1u) == 1u ? middle + (k + 1u) / 2u : middle - k / 2u;
 }
 
-SPA_FUNCTION bool spa_fan_inside(SpaMap map, SpaFan options, SpaSecant secant, float time) {
+SPA_FUNCTION bool spa_fan_inside(SPA_IN(SpaMap) map, SPA_IN(SpaFan) options, SpaSecant secant, float time) {
     float3 at = secant.foot + secant.direction * time;
     float3 side = spa_side_of(at, secant.direction);
     float depth = 0.0f;
@@ -150,8 +150,8 @@ SPA_FUNCTION bool spa_fan_inside(SpaMap map, SpaFan options, SpaSecant secant, f
     return dot(at, at) <= depth * depth;
 }
 
-SPA_FUNCTION SpaHit spa_fan_hit(SpaMap map, SpaRay ray, SpaFan options, SpaSecant secant, SpaChord chord,
-                                float time, bool front) {
+SPA_FUNCTION SpaHit spa_fan_hit(SPA_IN(SpaMap) map, SPA_IN(SpaRay) ray, SPA_IN(SpaFan) options,
+                                SpaSecant secant, SPA_IN(SpaChord) chord, float time, bool front) {
     SpaHit hit = spa_no_hit();
     float reported = options.report == SPA_FAN_T_SPHERE && front ? chord.t0 : time;
     hit.t = max(ray.t_min, min(chord.foot_t + reported, ray.t_max));
@@ -172,7 +172,8 @@ SPA_FUNCTION SpaHit spa_fan_hit(SpaMap map, SpaRay ray, SpaFan options, SpaSecan
 // flags: SPA_CULL_BACK, SPA_CULL_FRONT. The hit's normal is the direction from the centre or, where the ray
 // would come from behind it, the ray's: the paper shades with the stored normal (spa_shade). Time: one depth
 // a test ray.
-SPA_FUNCTION bool spa_trace_fan(SpaMap map, SpaRay ray, SpaFan options, uint flags, SPA_OUT(SpaHit) hit) {
+SPA_FUNCTION bool spa_trace_fan(SPA_IN(SpaMap) map, SPA_IN(SpaRay) ray, SPA_IN(SpaFan) options, uint flags,
+                                SPA_OUT(SpaHit) hit) {
     hit = spa_no_hit();
     SpaChord chord;
     if (!(ray.t_min <= ray.t_max)) return false;

@@ -4,6 +4,7 @@
 // The text keeps to what all of them share: float2/float3 and uint, structs returned by value, member-wise
 // assignment, no default arguments, no global constants, no recursion. No call that changes anything stands
 // in an operand of &&, || or ?:, because HLSL evaluates all of them. This file maps the rest:
+//   SPA_IN(type)     a parameter that is read, of a struct's type
 //   SPA_OUT(type)    a parameter that is written
 //   SPA_INOUT(type)  a parameter that is read and written
 //   spa_bits(f), spa_float(u)   a float's pattern, and back
@@ -27,6 +28,7 @@
 #include <cmath>
 #include <cstdint>
 
+#define SPA_IN(type) const type&
 #define SPA_OUT(type) type&
 #define SPA_INOUT(type) type&
 #define SPA_FUNCTION inline
@@ -79,6 +81,7 @@ inline uint spa_load(SpaWords words, uint index) { return words.first[index]; }
 
 #else // GLSL or HLSL
 
+#define SPA_IN(type) type
 #define SPA_OUT(type) out type
 #define SPA_INOUT(type) inout type
 #define SPA_FUNCTION

@@ -165,7 +165,7 @@ struct SpaChord {
 };
 
 // False: the ray misses the sphere, or is none.
-SPA_FUNCTION bool spa_chord(SpaRay ray, float radius, SPA_OUT(SpaChord) chord) {
+SPA_FUNCTION bool spa_chord(SPA_IN(SpaRay) ray, float radius, SPA_OUT(SpaChord) chord) {
     float dd = dot(ray.direction, ray.direction);
     float foot_t = -dot(ray.origin, ray.direction) / dd;
     float3 foot = ray.origin + ray.direction * foot_t;

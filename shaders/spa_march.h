@@ -25,7 +25,7 @@ SPA_FUNCTION SpaMarch spa_march_defaults() {
 }
 
 // How far the ray is above the surface at this time; SPA_FAR where there is no surface.
-SPA_FUNCTION float spa_march_height(SpaMap map, float3 foot, float3 direction, float time) {
+SPA_FUNCTION float spa_march_height(SPA_IN(SpaMap) map, float3 foot, float3 direction, float time) {
     float3 at = foot + direction * time;
     float depth = spa_depth_bilinear(map, spa_side_of(at, direction));
     if (!(depth > 0.0f)) return SPA_FAR;
@@ -41,7 +41,7 @@ SPA_FUNCTION float spa_march_between(float time0, float height0, float time1, fl
 }
 
 // Difference of the depths on both sides of a direction; where there is none, `depth` stands for it.
-SPA_FUNCTION float spa_march_slope(SpaMap map, float3 direction, float3 step, float depth) {
+SPA_FUNCTION float spa_march_slope(SPA_IN(SpaMap) map, float3 direction, float3 step, float depth) {
     float before = spa_depth_bilinear(map, direction - step);
     float behind = spa_depth_bilinear(map, direction + step);
     if (!(before > 0.0f)) before = depth;
@@ -50,7 +50,7 @@ SPA_FUNCTION float spa_march_slope(SpaMap map, float3 direction, float3 step, fl
 }
 
 // The gradient of the height at a point of this direction, by differences over two samples. Not normalised.
-SPA_FUNCTION float3 spa_march_normal(SpaMap map, float3 at) {
+SPA_FUNCTION float3 spa_march_normal(SPA_IN(SpaMap) map, float3 at) {
     float length_of = sqrt(dot(at, at));
     float3 up = at * (1.0f / length_of);
     float depth = spa_depth_bilinear(map, up);
@@ -68,7 +68,8 @@ SPA_FUNCTION float3 spa_march_normal(SpaMap map, float3 at) {
 }
 
 // flags: SPA_CULL_BACK, SPA_CULL_FRONT, SPA_ANY_HIT. Time: four depths a step, and 20 for the normal.
-SPA_FUNCTION bool spa_trace_march(SpaMap map, SpaRay ray, SpaMarch options, uint flags, SPA_OUT(SpaHit) hit) {
+SPA_FUNCTION bool spa_trace_march(SPA_IN(SpaMap) map, SPA_IN(SpaRay) ray, SPA_IN(SpaMarch) options,
+                                  uint flags, SPA_OUT(SpaHit) hit) {
     hit = spa_no_hit();
     SpaChord chord;
     if (!(ray.t_min <= ray.t_max)) return false;

@@ -27,11 +27,11 @@ SPA_BEGIN
 
 // The float of a node's code: no less than what was encoded as a lower end, no more as an upper end,
 // reversed.
-SPA_FUNCTION float spa_decode(SpaMap map, uint code) {
+SPA_FUNCTION float spa_decode(SPA_IN(SpaMap) map, uint code) {
     return spa_float(map.code_base + (code << map.code_shift));
 }
 
-SPA_FUNCTION bool spa_meets(SpaMap map, uint range, float low, float high) {
+SPA_FUNCTION bool spa_meets(SPA_IN(SpaMap) map, uint range, float low, float high) {
     return high >= spa_decode(map, range & 0xFFFFu) && low <= spa_decode(map, range >> 16u);
 }
 
@@ -43,7 +43,7 @@ SPA_FUNCTION uint spa_node(uint bits, uint x, uint y) {
 }
 
 // x and y: a cell on the whole map.
-SPA_FUNCTION SpaTriangle spa_triangle(SpaMap map, uint x, uint y, uint beyond) {
+SPA_FUNCTION SpaTriangle spa_triangle(SPA_IN(SpaMap) map, uint x, uint y, uint beyond) {
     SpaTriangle tri;
     uint middle = (map.width - 1u) / 2u;
     uint low_bits = (1u << map.levels) - 1u;
@@ -68,8 +68,8 @@ SPA_FUNCTION bool spa_turned(uint flip) { return (flip & 1u) != 0u; }
 
 // The ray from sigma s0 to s1 in the cell (x, y), places turned as in the stretch. True: `event`, in `piece`
 // and `tri`, is to be reported.
-SPA_FUNCTION bool spa_cross_cell(SpaMap map, SpaStretch stretch, uint x, uint y, float s0, float s1,
-                                 uint flags, SPA_INOUT(uint) state, SPA_INOUT(SpaEvent) event,
+SPA_FUNCTION bool spa_cross_cell(SPA_IN(SpaMap) map, SPA_IN(SpaStretch) stretch, uint x, uint y, float s0,
+                                 float s1, uint flags, SPA_INOUT(uint) state, SPA_INOUT(SpaEvent) event,
                                  SPA_INOUT(SpaPiece) piece, SPA_INOUT(SpaTriangle) tri) {
     float u0 = stretch.x0 + s0 * stretch.dx - float(x);
     float v0 = stretch.y0 + s0 * stretch.dy - float(y);
@@ -113,8 +113,8 @@ SPA_FUNCTION bool spa_cross_cell(SpaMap map, SpaStretch stretch, uint x, uint y,
 
 // The gradient of plane(p) * l(p), linear in map space, for a plane over the cell (x, y) (w - plane = 0 is
 // the same as plane * l = 1).
-SPA_FUNCTION float3 spa_gradient(SpaMap map, SpaStretch stretch, SpaPlane plane, uint x, uint y,
-                                 uint beyond) {
+SPA_FUNCTION float3 spa_gradient(SPA_IN(SpaMap) map, SPA_IN(SpaStretch) stretch, SpaPlane plane, uint x,
+                                 uint y, uint beyond) {
     uint cells = (map.width - 1u) / 2u;
     float gx = plane.u * float(cells);
     float gy = plane.v * float(cells);
@@ -126,8 +126,8 @@ SPA_FUNCTION float3 spa_gradient(SpaMap map, SpaStretch stretch, SpaPlane plane,
 }
 
 // plane(p) * l(p) at time t, evaluated from the cell's corner.
-SPA_FUNCTION float spa_plane_at(SpaMap map, SpaStretch stretch, float3 foot, float3 direction, SpaPlane plane,
-                                uint x, uint y, float t) {
+SPA_FUNCTION float spa_plane_at(SPA_IN(SpaMap) map, SPA_IN(SpaStretch) stretch, float3 foot, float3 direction,
+                                SpaPlane plane, uint x, uint y, float t) {
     uint half_cells = (map.width - 1u) / 2u;
     float cells = float(half_cells);
     float a = stretch.signs.x * (foot.x + direction.x * t);
@@ -142,8 +142,9 @@ SPA_FUNCTION float spa_plane_at(SpaMap map, SpaStretch stretch, float3 foot, flo
 }
 
 // Fills the record of an event.
-SPA_FUNCTION SpaHit spa_finish(SpaMap map, SpaRay ray, SpaChord chord, SpaStretch stretch, SpaEvent event,
-                               SpaPiece piece, SpaTriangle tri, uint x, uint y) {
+SPA_FUNCTION SpaHit spa_finish(SPA_IN(SpaMap) map, SPA_IN(SpaRay) ray, SPA_IN(SpaChord) chord,
+                               SPA_IN(SpaStretch) stretch, SPA_IN(SpaEvent) event, SPA_IN(SpaPiece) piece,
+                               SPA_IN(SpaTriangle) tri, uint x, uint y) {
     uint low_bits = (1u << map.levels) - 1u;
     uint real_x = (x ^ stretch.flip_x) & low_bits;
     uint real_y = (y ^ stretch.flip_y) & low_bits;
@@ -189,7 +190,7 @@ struct SpaWalk {
 };
 
 // Follows one stretch. True: the ray has an event to report in the cell of `walk`.
-SPA_FUNCTION bool spa_walk(SpaMap map, SpaStretch stretch, uint flags, SPA_INOUT(uint) state,
+SPA_FUNCTION bool spa_walk(SPA_IN(SpaMap) map, SPA_IN(SpaStretch) stretch, uint flags, SPA_INOUT(uint) state,
                            SPA_INOUT(SpaEvent) event, SPA_INOUT(SpaPiece) piece, SPA_INOUT(SpaTriangle) tri,
                            SPA_INOUT(SpaWalk) walk) {
     uint top = map.levels > SPA_TOP_BITS ? map.levels - SPA_TOP_BITS : 0u;
@@ -275,7 +276,7 @@ SPA_FUNCTION float spa_leaves(float position, float direction, float per, float 
 }
 
 // Keeps of a chord what lies in the box around the surface. False: nothing does.
-SPA_FUNCTION bool spa_in_box(SpaMap map, float3 direction, float3 per, SPA_INOUT(SpaChord) chord) {
+SPA_FUNCTION bool spa_in_box(SPA_IN(SpaMap) map, float3 direction, float3 per, SPA_INOUT(SpaChord) chord) {
     float3 low = map.box_low;
     float3 high = map.box_high;
     float enters = max(spa_enters(chord.foot.x, direction.x, per.x, low.x, high.x),
@@ -291,7 +292,8 @@ SPA_FUNCTION bool spa_in_box(SpaMap map, float3 direction, float3 per, SPA_INOUT
 }
 
 // The first hit of the ray with t_min <= t <= t_max. flags: SPA_CULL_..., SPA_ANY_HIT.
-SPA_FUNCTION bool spa_trace_projective(SpaMap map, SpaRay ray, uint flags, SPA_OUT(SpaHit) hit) {
+SPA_FUNCTION bool spa_trace_projective(SPA_IN(SpaMap) map, SPA_IN(SpaRay) ray, uint flags,
+                                       SPA_OUT(SpaHit) hit) {
     hit = spa_no_hit();
     if (map.mapping != SPA_OCTAHEDRAL) return false;
     if (!(ray.t_min <= ray.t_max)) return false;

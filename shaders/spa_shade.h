@@ -75,7 +75,7 @@ struct SpaImage {
 };
 
 // kind: 0 colours, 3 normals. The outer surface's where an inner one has none.
-SPA_FUNCTION SpaImage spa_image(SpaMap map, uint surface, uint kind) {
+SPA_FUNCTION SpaImage spa_image(SPA_IN(SpaMap) map, uint surface, uint kind) {
     uint entry = map.images + surface * SPA_IMAGE_WORDS + kind;
     if (spa_load(map.words, entry + 1u) == 0u && (surface & 1u) == 1u) entry -= SPA_IMAGE_WORDS;
     SpaImage image;
@@ -86,7 +86,7 @@ SPA_FUNCTION SpaImage spa_image(SpaMap map, uint surface, uint kind) {
 }
 
 // Adds weight * coverage * colour of a texel.
-SPA_FUNCTION void spa_add_color(SpaMap map, uint index, float weight, SPA_INOUT(float3) covered,
+SPA_FUNCTION void spa_add_color(SPA_IN(SpaMap) map, uint index, float weight, SPA_INOUT(float3) covered,
                                 SPA_INOUT(float3) plain, SPA_INOUT(float) coverage) {
     uint word = spa_load(map.words, index);
     float3 color = spa_color_of(word);
@@ -96,13 +96,13 @@ SPA_FUNCTION void spa_add_color(SpaMap map, uint index, float weight, SPA_INOUT(
     coverage = coverage + share;
 }
 
-SPA_FUNCTION float3 spa_weighted_normal(SpaMap map, uint index, float weight) {
+SPA_FUNCTION float3 spa_weighted_normal(SPA_IN(SpaMap) map, uint index, float weight) {
     return spa_unit(spa_normal_of(spa_load(map.words, index))) * weight;
 }
 
 // hit: what a trace of this map gave; of any other record nothing is read outside the image either.
 // Time: eight texels.
-SPA_FUNCTION SpaShade spa_shade(SpaMap map, SpaHit hit) {
+SPA_FUNCTION SpaShade spa_shade(SPA_IN(SpaMap) map, SpaHit hit) {
     SpaShade shade;
     shade.color = float3(1.0f, 1.0f, 1.0f);
     shade.coverage = 1.0f;

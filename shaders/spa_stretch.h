@@ -51,8 +51,8 @@ SPA_FUNCTION float spa_crossing(float position, float direction, float per, floa
 }
 
 // Between the times ta < tb, which lie in one octant. False: the stretch lies in the core and is left out.
-SPA_FUNCTION bool spa_stretch(SpaMap map, float3 foot, float3 direction, float3 crossings, float ta, float tb,
-                              SPA_OUT(SpaStretch) stretch) {
+SPA_FUNCTION bool spa_stretch(SPA_IN(SpaMap) map, float3 foot, float3 direction, float3 crossings, float ta,
+                              float tb, SPA_OUT(SpaStretch) stretch) {
     float half_cells = float(map.width - 1u) * 0.5f;
     float side = float(1u << map.levels);
     float middle = (ta + tb) * 0.5f;
@@ -113,7 +113,7 @@ SPA_FUNCTION bool spa_stretch(SpaMap map, float3 foot, float3 direction, float3 
 }
 
 // The time of a place on the stretch.
-SPA_FUNCTION float spa_time(SpaStretch stretch, float sigma) {
+SPA_FUNCTION float spa_time(SPA_IN(SpaStretch) stretch, float sigma) {
     float w1 = stretch.w0 + stretch.dw;
     float start = stretch.ta * stretch.w0;
     float t = (start + sigma * (stretch.tb * w1 - start)) / (stretch.w0 + sigma * stretch.dw);
