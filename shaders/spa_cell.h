@@ -31,6 +31,9 @@ SPA_BEGIN
 // one that leaves enter and leave again: this much of w is no reason to.
 #define SPA_SLACK 4e-6f
 
+// Words of a triangle's list of prisms: where they are, how many (or SPA_PURE), the least and the greatest w
+// in them.
+#define SPA_LIST_WORDS 4u
 // Words of a prism.
 #define SPA_PRISM_WORDS 8u // outer plane (3), inner plane (3), properties, place of the half-planes
 // Properties: bits 0-15 layer, 16-23 number of half-planes, bit 24 + n: half-plane n is an open wall.
@@ -72,6 +75,8 @@ struct SpaTriangle {
     uint beyond; // 0: the triangle at that corner, 1: the other one
     uint prisms; // SPA_PURE, or how many
     uint first;  // where they are
+    float low;   // no prism lies outside this range of w
+    float high;
 };
 
 // Where the ray enters or leaves the solid.

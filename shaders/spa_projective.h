@@ -53,11 +53,16 @@ SPA_FUNCTION SpaTriangle spa_triangle(SPA_IN(SpaMap) map, uint x, uint y, uint b
     tri.beyond = beyond;
     tri.prisms = SPA_PURE;
     tri.first = 0u;
+    tri.low = 0.0f;
+    tri.high = SPA_FAR;
     if (map.cells != 0u) {
         uint lists = spa_load(map.words, map.cells + (y << (map.levels + 1u)) + x);
         if (lists != 0u) {
-            tri.first = spa_load(map.words, lists + 2u * beyond);
-            tri.prisms = spa_load(map.words, lists + 2u * beyond + 1u);
+            uint list = lists + SPA_LIST_WORDS * beyond;
+            tri.first = spa_load(map.words, list);
+            tri.prisms = spa_load(map.words, list + 1u);
+            tri.low = spa_float(spa_load(map.words, list + 2u));
+            tri.high = spa_float(spa_load(map.words, list + 3u));
         }
     }
     return tri;
@@ -105,7 +110,11 @@ SPA_FUNCTION bool spa_cross_cell(SPA_IN(SpaMap) map, SPA_IN(SpaStretch) stretch,
         piece.v1 = n == 0u ? vm : v1;
         piece.w1 = n == 0u ? wm : w1;
         tri = spa_triangle(map, x ^ stretch.flip_x, y ^ stretch.flip_y, n == 0u ? beyond : 1u - beyond);
-        if (spa_cross(map, tri, piece, flags, state, event)) return true;
+        bool meets = state != SPA_OUTSIDE ||
+                     (max(piece.w0, piece.w1) >= tri.low && min(piece.w0, piece.w1) <= tri.high);
+        bool found = false;
+        if (meets) found = spa_cross(map, tri, piece, flags, state, event);
+        if (found) return true;
         if (!two) return false;
     }
     return false;

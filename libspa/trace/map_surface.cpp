@@ -172,16 +172,32 @@ private:
         if (result_.lists.empty()) begin_lists();
         const std::size_t entry = result_.lists.size();
         result_.cells[cell] = std::uint32_t(entry);
-        result_.lists.resize(entry + 4);
+        result_.lists.resize(entry + 2 * std::size_t(SPA_LIST_WORDS));
         for (std::uint32_t beyond = 0; beyond < 2; ++beyond) {
+            const std::size_t list = entry + beyond * std::size_t(SPA_LIST_WORDS);
             const std::size_t first = result_.lists.size();
             std::uint32_t count = SPA_PURE;
-            if (mixed[beyond]) count = add_mixed(triangles[beyond], result_.ranges[cell], core);
-            result_.lists[entry + 2 * std::size_t(beyond)] = std::uint32_t(first);
-            result_.lists[entry + 2 * std::size_t(beyond) + 1] = count;
-            result_.places.push_back(std::uint32_t(entry + 2 * std::size_t(beyond)));
+            Range range{0, far_w};
+            if (mixed[beyond]) {
+                Ranges ranges;
+                count = add_mixed(triangles[beyond], ranges, core);
+                result_.ranges[cell].add(ranges);
+                range = outward(ranges);
+            }
+            result_.lists[list] = std::uint32_t(first);
+            result_.lists[list + 1] = count;
+            result_.lists[list + 2] = std::bit_cast<std::uint32_t>(range.low);
+            result_.lists[list + 3] = std::bit_cast<std::uint32_t>(range.high);
+            result_.places.push_back(std::uint32_t(list));
         }
         result_.cores[cell] = core;
+    }
+
+    // From the first to the last of them, by more than rays are off.
+    static Range outward(const Ranges& ranges) {
+        constexpr float margin = 4e-6F;
+        if (ranges.count() == 0) return {far_w, 0};
+        return {ranges[0].low * (1 - margin), ranges[ranges.count() - 1].high * (1 + margin)};
     }
 
     void begin_lists() {
