@@ -31,9 +31,9 @@ std::vector<RayAnswer> ErrorPartsMeter::trace_baked(std::uint32_t cells, std::ui
 std::vector<RayAnswer> ErrorPartsMeter::judge(const TraceMethod& method) const {
     if (method.layers != 1) return {};
     const bake::OwnedMap map = bake_octahedral(model_, method.cells, method.layers, ElementFormat::u16);
-    bool complete = false;
-    const MapSurface surface = outermost_surface(map.map.parts.front(), complete);
-    if (!complete) return {};
+    const Part& part = map.map.parts.front();
+    if (trace::TraceMap(part, {1, false}).map().cells != 0) return {}; // some triangle is mixed
+    const MapSurface surface = outermost_surface(part);
     const trace::TriangleScene scene(surface.positions, surface.triangles);
     const std::span<const trace::Ray> rays = batch_.rays();
     Answers answers(rays.size());

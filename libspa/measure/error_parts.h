@@ -20,8 +20,8 @@ namespace spa::measure {
 // map's bits - with the tracer's arithmetic. No map is farther from the model than their sum.
 struct ErrorParts {
     double star = 0, resolution = 0, quantization = 0;
-    // From the stored surface as triangles, in Embree's robust mode. Maps of one layer whose samples all have
-    // a surface alone: the surface of others is no mesh.
+    // From the stored surface as triangles, in Embree's robust mode. Maps of one layer without mixed
+    // triangles alone (docs/tracing.md): the surface of others is no such mesh.
     std::optional<double> solver;
     double total = 0; // model - map as traced, over the same rays
 };

@@ -111,8 +111,7 @@ private:
     }
 
     void make_surface(const Part& part, std::uint32_t cells) {
-        bool complete = false;
-        const MapSurface surface = outermost_surface(part, complete);
+        const MapSurface surface = outermost_surface(part);
         MethodReport report;
         auto method = on_one_thread(Family::surface, surface.positions, {}, surface.triangles, report);
         method->cells = cells;
@@ -124,8 +123,9 @@ private:
         double seconds = 0;
         (void)triangle_method(Family::mesh, centered_.positions, {}, model_.triangles, false, seconds);
         report.build_seconds_cores = seconds;
-        add(on_one_thread(Family::mesh, centered_.positions, centered_.normals, model_.triangles, report),
-            "mesh", std::move(report));
+        auto method =
+            on_one_thread(Family::mesh, centered_.positions, centered_.normals, model_.triangles, report);
+        add(std::move(method), "mesh", std::move(report));
     }
 
     void make_lods() {

@@ -8,8 +8,7 @@
 
 namespace spa::measure {
 
-// In the part's frame, in units of its radius; triangles without area are left out. complete: whether every
-// sample has a surface, so that the triangles close. O(samples).
-MapSurface outermost_surface(const Part& part, bool& complete);
+// In the part's frame, in units of its radius; triangles without area are left out. O(samples).
+MapSurface outermost_surface(const Part& part);
 
 } // namespace spa::measure
