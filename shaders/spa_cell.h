@@ -30,6 +30,11 @@ SPA_BEGIN
 // Rounding at the borders of triangles must not make a ray that enters the solid leave and enter again, nor
 // one that leaves enter and leave again: this much of w is no reason to.
 #define SPA_SLACK 4e-6f
+// So much deeper, relative to w, inner ends are for rays that come from outside: they do not slip through
+// what has no thickness. Less than the slack, or they would leave at once.
+#define SPA_THICKER 1e-6f
+// Planes whose values change by no more along a piece of the ray do not say where it passes them.
+#define SPA_ALONG 2e-6f
 
 // Words of a triangle's list of prisms: where they are, how many (or SPA_PURE), the least and the greatest w
 // in them.
@@ -184,10 +189,10 @@ SPA_FUNCTION uint spa_prisms(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri) {
 
 // Keeps of `clip` what lies where a function is >= 0 that has the values g0 and g1 at the piece's ends. Never
 // asks for a change of sign: what is inside at an end stays inside there. slack: how far below 0 a function
-// may begin that rises, or stays so.
+// may begin or end without ending what is inside.
 SPA_FUNCTION void spa_clip(SPA_INOUT(SpaClip) clip, SPA_IN(SpaPiece) piece, float g0, float g1, float slack,
                            uint by) {
-    float least = g0 < 0.0f || g0 <= g1 ? 0.0f - slack : 0.0f;
+    float least = g0 < 0.0f || g1 >= 0.0f - slack ? 0.0f - slack : 0.0f;
     if (g0 < least && g1 < least) {
         clip.s1 = -1.0f;
     } else if (g0 < least) {
@@ -205,22 +210,22 @@ SPA_FUNCTION void spa_clip(SPA_INOUT(SpaClip) clip, SPA_IN(SpaPiece) piece, floa
     }
 }
 
-// The piece inside a prism; empty if s1 < s0. slack: 0, or SPA_SLACK in the
-// solid.
+// The piece inside a prism; empty if s1 < s0. slack: 0, or SPA_SLACK in the solid. thicker: 0, or SPA_THICKER
+// for rays that come from outside.
 SPA_FUNCTION SpaClip spa_clip_prism(SPA_IN(SpaMap) map, SPA_IN(SpaPrism) prism, SPA_IN(SpaPiece) piece,
-                                    float slack) {
+                                    float slack, float thicker) {
     SpaClip clip;
     clip.s0 = piece.s0;
     clip.s1 = piece.s1;
     clip.by0 = SPA_BY_EDGE;
     clip.by1 = SPA_BY_EDGE;
-    float by_w = slack * piece.w0;
+    float w = min(piece.w0, piece.w1);
     spa_clip(clip, piece, piece.w0 - spa_at(prism.outer, piece.u0, piece.v0),
-             piece.w1 - spa_at(prism.outer, piece.u1, piece.v1), by_w, SPA_BY_OUTER);
+             piece.w1 - spa_at(prism.outer, piece.u1, piece.v1), slack * w, SPA_BY_OUTER);
     if (clip.s1 < clip.s0) return clip;
     if (prism.inner.c < SPA_FAR)
-        spa_clip(clip, piece, spa_at(prism.inner, piece.u0, piece.v0) - piece.w0,
-                 spa_at(prism.inner, piece.u1, piece.v1) - piece.w1, by_w, SPA_BY_INNER);
+        spa_clip(clip, piece, spa_at(prism.inner, piece.u0, piece.v0) - (piece.w0 - thicker * w),
+                 spa_at(prism.inner, piece.u1, piece.v1) - (piece.w1 - thicker * w), slack * w, SPA_BY_INNER);
     for (uint n = 0u; n < prism.half_planes; n += 1u) {
         SpaPlane plane = spa_load_plane(map, prism.first + 3u * n);
         spa_clip(clip, piece, spa_at(plane, piece.u0, piece.v0) + SPA_OVERLAP,
@@ -305,7 +310,7 @@ SPA_FUNCTION bool spa_leaves(SPA_IN(SpaPrism) prism, SPA_IN(SpaPiece) piece, SPA
     if (clip.by0 != SPA_BY_EDGE || clip.s1 >= piece.s1) return false;
     float outer = piece.w0 - spa_at(prism.outer, piece.u0, piece.v0);
     float inner = spa_at(prism.inner, piece.u0, piece.v0) - piece.w0;
-    float small = SPA_SLACK * piece.w0;
+    float small = SPA_SLACK * min(piece.w0, piece.w1);
     return (clip.by1 == SPA_BY_OUTER && outer < small && inner >= small) ||
            (clip.by1 == SPA_BY_INNER && inner < small && outer >= small);
 }
@@ -325,7 +330,7 @@ SPA_FUNCTION bool spa_cross(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, SPA_IN(
     if (state == SPA_UNKNOWN) {
         state = SPA_OUTSIDE;
         for (uint n = 0u; n < count; n += 1u) {
-            SpaClip clip = spa_clip_prism(map, spa_prism(map, tri, n), piece, 0.0f);
+            SpaClip clip = spa_clip_prism(map, spa_prism(map, tri, n), piece, 0.0f, 0.0f);
             if (clip.s0 <= at && clip.s1 >= at) state = SPA_INSIDE;
         }
     }
@@ -337,7 +342,7 @@ SPA_FUNCTION bool spa_cross(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, SPA_IN(
         if (state == SPA_OUTSIDE) {
             for (uint n = 0u; n < count; n += 1u) {
                 SpaPrism prism = spa_prism(map, tri, n);
-                SpaClip clip = spa_clip_prism(map, prism, piece, 0.0f);
+                SpaClip clip = spa_clip_prism(map, prism, piece, 0.0f, turn == 0u ? SPA_THICKER : 0.0f);
                 bool ahead =
                     clip.s0 <= clip.s1 && (clip.s1 > at || turn == 0u) && !spa_leaves(prism, piece, clip);
                 if (ahead && max(clip.s0, at) < s) {
@@ -356,7 +361,7 @@ SPA_FUNCTION bool spa_cross(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, SPA_IN(
                 grows = false;
                 for (uint n = 0u; n < count; n += 1u) {
                     SpaPrism prism = spa_prism(map, tri, n);
-                    SpaClip clip = spa_clip_prism(map, prism, piece, SPA_SLACK);
+                    SpaClip clip = spa_clip_prism(map, prism, piece, SPA_SLACK, 0.0f);
                     if (clip.s0 <= s && clip.s1 > s) {
                         s = clip.s1;
                         by = clip.by1;

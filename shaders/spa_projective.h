@@ -169,8 +169,9 @@ SPA_FUNCTION SpaHit spa_finish(SPA_IN(SpaMap) map, SPA_IN(SpaRay) ray, SPA_IN(Sp
             spa_plane_at(map, stretch, chord.foot, ray.direction, event.plane, real_x, real_y, tb) - 1.0f;
         // Its value falls where the ray enters by an outer end or leaves by an inner one, else it rises.
         bool falls = event.front == (event.by == SPA_BY_OUTER);
-        if (falls ? ga >= 0.0f && gb < 0.0f : ga < 0.0f && gb >= 0.0f)
-            t = min(max(ta + (tb - ta) * (ga / (ga - gb)), ta), tb);
+        // Unless the ray all but runs along the plane.
+        bool crosses = falls ? ga >= 0.0f && gb < 0.0f : ga < 0.0f && gb >= 0.0f;
+        if (crosses && abs(ga - gb) > SPA_ALONG) t = min(max(ta + (tb - ta) * (ga / (ga - gb)), ta), tb);
     }
     float3 normal = spa_gradient(map, stretch, event.plane, real_x, real_y, tri.beyond);
     if (event.by != SPA_BY_OUTER) normal = normal * -1.0f;

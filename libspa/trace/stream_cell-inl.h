@@ -130,8 +130,9 @@ HWY_INLINE void enter_prism(const PieceLanes& piece, const PlaneLanes& outer, co
         VF end = piece.s1;
         end = hn::IfThenElse(hn::And(hn::AndNot(before, after), hn::Lt(cut, end)), cut, end);
         const MF bounded = hn::Lt(inner.c, hn::Set(df, SPA_FAR));
-        const VF h0 = hn::Sub(plane_at(inner, piece.u0, piece.v0), piece.w0);
-        const VF h1 = hn::Sub(plane_at(inner, piece.u1, piece.v1), piece.w1);
+        const VF thicker = hn::Mul(hn::Set(df, SPA_THICKER), hn::Min(piece.w0, piece.w1));
+        const VF h0 = hn::Sub(plane_at(inner, piece.u0, piece.v0), hn::Sub(piece.w0, thicker));
+        const VF h1 = hn::Sub(plane_at(inner, piece.u1, piece.v1), hn::Sub(piece.w1, thicker));
         const MF h_before = hn::And(bounded, hn::Lt(h0, zero));
         const MF h_after = hn::And(bounded, hn::Lt(h1, zero));
         const VF h_cut = hn::Add(piece.s0, hn::Mul(length, hn::Div(h0, hn::Sub(h0, h1))));

@@ -104,7 +104,8 @@ HWY_INLINE void finish(const shader::SpaMap& map, const StreamBlock& block, cons
         t_end);
     const MF a_below = hn::Lt(ga, zero);
     const MF b_below = hn::Lt(gb, zero);
-    const MF changes = select_mask(cross.inner, hn::AndNot(b_below, a_below), hn::AndNot(a_below, b_below));
+    const MF crosses = select_mask(cross.inner, hn::AndNot(b_below, a_below), hn::AndNot(a_below, b_below));
+    const MF changes = hn::And(crosses, hn::Gt(hn::Abs(hn::Sub(ga, gb)), hn::Set(df, SPA_ALONG)));
     const VF t = hn::IfThenElse(changes, exact, time_of(stretch, ta, tb, cross.s));
     const VI ray =
         hn::ShiftLeft<3>(hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(chords.ray + 0), chord));
@@ -117,8 +118,8 @@ HWY_INLINE void finish(const shader::SpaMap& map, const StreamBlock& block, cons
     const VF gx = hn::Mul(plane.u, hn::Set(df, cells));
     const VF gy = hn::Mul(plane.v, hn::Set(df, cells));
     const VF gl = hn::Sub(hn::Sub(plane.c, hn::Mul(plane.u, x)), hn::Mul(plane.v, y));
-    const MF upper = hn::RebindMask(
-        df, hn::Lt(hn::Add(hn::Add(real_x, real_y), cross.beyond), hn::Set(du, half_cells)));
+    const MF upper =
+        hn::RebindMask(df, hn::Lt(hn::Add(hn::Add(real_x, real_y), cross.beyond), hn::Set(du, half_cells)));
     const VF gradient_x = signed_by(left, hn::Add(gl, gx));
     const VF gradient_y = signed_by(below, hn::Add(gl, gy));
     const VF gradient_z = hn::IfThenElse(upper, gl, hn::Neg(hn::Add(hn::Add(gl, gx), gy)));

@@ -218,7 +218,7 @@ struct ByText {
 
 // Takes the lanes of `mask` through their cells, one after the other.
 inline HWY_NOINLINE ByText cross_by_text(const shader::SpaMap& map, const WalkConstants& constants,
-                                  const StretchBlock& jobs, const WalkLanes& lanes, VF s1, MU mask) {
+                                         const StretchBlock& jobs, const WalkLanes& lanes, VF s1, MU mask) {
     HWY_ALIGN std::uint32_t x[hn::MaxLanes(du)], y[hn::MaxLanes(du)], job[hn::MaxLanes(du)],
         wanted[hn::MaxLanes(du)], state[hn::MaxLanes(du)], event[hn::MaxLanes(du)] = {};
     HWY_ALIGN float from[hn::MaxLanes(df)], to[hn::MaxLanes(df)];

@@ -16,6 +16,9 @@ constexpr double overlap = 1e-12;
 // Spans of solid that are closer to each other touch.
 constexpr double touching = 1e-9;
 
+// A direction this near to a plane may go to either side of it.
+constexpr double grazing = 1e-5;
+
 Vec3d octant_signs(unsigned octant) {
     return {octant & 1U ? -1.0 : 1.0, octant & 2U ? -1.0 : 1.0, octant & 4U ? -1.0 : 1.0};
 }
@@ -369,50 +372,69 @@ double Judge::depth_in(const Piece& piece, Vec3d point) {
     return depth;
 }
 
+template <class Visit>
+bool Judge::any_near(Vec3d point, double reach, const Visit& visit) const {
+    for (unsigned octant = 0; octant < 8; ++octant) {
+        const Vec3d s = octant_signs(octant);
+        const Vec3d p{point.x * s.x, point.y * s.y, point.z * s.z};
+        if (std::min({p.x, p.y, p.z}) < -reach) continue;
+        const double l = p.x + p.y + p.z;
+        Range rows{0, n_ - 1};
+        Range columns = rows;
+        if (l > 100 * reach) {
+            const double wide = 4 * reach / l;
+            rows = cells_between(p.x / l - wide, p.x / l + wide, n_);
+            columns = cells_between(p.y / l - wide, p.y / l + wide, n_);
+        }
+        for (std::uint32_t i = rows.first; i <= rows.last; ++i)
+            for (std::uint32_t j = columns.first; j <= columns.last; ++j)
+                for (std::uint32_t k = first_[bin(octant, i, j)]; k < first_[bin(octant, i, j) + 1]; ++k)
+                    if (visit(pieces_[k])) return true;
+    }
+    return false;
+}
+
 bool Judge::solid(Vec3d point) const {
-    return std::any_of(pieces_.begin(), pieces_.end(),
-                       [&](const Piece& piece) { return depth_in(piece, point) >= 0; });
+    return any_near(point, touching, [&](const Piece& piece) { return depth_in(piece, point) >= 0; });
 }
 
 bool Judge::near_boundary(Vec3d point, double reach) const {
-    return std::any_of(pieces_.begin(), pieces_.end(),
-                       [&](const Piece& piece) { return std::abs(depth_in(piece, point)) <= reach; });
+    return any_near(point, reach,
+                    [&](const Piece& piece) { return std::abs(depth_in(piece, point)) <= reach; });
 }
 
 bool Judge::near_face(Vec3d point, double reach, const Event& face, bool any_layer) const {
-    for (const Piece& piece : pieces_) {
-        if ((piece.layer != face.layer && !any_layer) || !(std::abs(depth_in(piece, point)) <= reach))
-            continue;
-        for (unsigned k = 0; k < piece.count; ++k) {
-            const HalfSpace& half = piece.halves[k];
-            const double size = length(half.plane);
-            if (half.side == face.side && dot(half.plane, face.normal) < -(1 - 1e-4) * size &&
-                std::abs(dot(half.plane, point) - half.offset) <= reach * size)
-                return true;
-        }
-    }
-    return false;
+    return any_near(point, reach, [&](const Piece& piece) {
+        if (piece.layer != face.layer && !any_layer) return false;
+        if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
+        return std::any_of(
+            piece.halves.begin(), piece.halves.begin() + piece.count, [&](const HalfSpace& half) {
+                const double size = length(half.plane);
+                return half.side == face.side && dot(half.plane, face.normal) < -(1 - 1e-4) * size &&
+                       std::abs(dot(half.plane, point) - half.offset) <= reach * size;
+            });
+    });
 }
 
 bool Judge::near_passage(Vec3d point, double reach, Vec3d direction, bool enters) const {
-    for (const Piece& piece : pieces_) {
-        if (!(std::abs(depth_in(piece, point)) <= reach)) continue;
-        for (unsigned k = 0; k < piece.count; ++k) {
-            const HalfSpace& half = piece.halves[k];
-            const double size = length(half.plane);
-            if (std::abs(dot(half.plane, point) - half.offset) <= reach * size &&
-                (dot(half.plane, direction) > 0) == enters && !solid(point - half.plane * (2 * reach / size)))
-                return true;
-        }
-    }
-    return false;
+    return any_near(point, reach, [&](const Piece& piece) {
+        if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
+        return std::any_of(
+            piece.halves.begin(), piece.halves.begin() + piece.count, [&](const HalfSpace& half) {
+                const double size = length(half.plane);
+                return std::abs(dot(half.plane, point) - half.offset) <= reach * size &&
+                       ((dot(half.plane, direction) > 0) == enters ||
+                        std::abs(dot(half.plane, direction)) < grazing * size * length(direction)) &&
+                       !solid(point - half.plane * (2 * reach / size));
+            });
+    });
 }
 
 std::vector<Vec3d> Judge::points_inside(Vec3d point, double reach) const {
     constexpr double deep = 1e-8;
     std::vector<Vec3d> points;
-    for (const Piece& piece : pieces_) {
-        if (!(std::abs(depth_in(piece, point)) <= reach)) continue;
+    any_near(point, reach, [&](const Piece& piece) {
+        if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
         Vec3d inside = point;
         for (int i = 0; i < 20; ++i) {
             for (unsigned k = 0; k < piece.count; ++k) {
@@ -423,7 +445,8 @@ std::vector<Vec3d> Judge::points_inside(Vec3d point, double reach) const {
             }
         }
         if (length(inside - point) <= reach) points.push_back(inside);
-    }
+        return false;
+    });
     return points;
 }
 

@@ -97,6 +97,10 @@ private:
                       Vec3d& outer, Vec3d& inner) const;
     void add_ends(Piece& piece, Vec3d outer, Vec3d inner, bool to_center);
     static void add_side(Piece& piece, Vec3d plane, bool open = false);
+    // Calls `visit` with the pieces whose triangles the point is in, or no farther than `reach` from; true:
+    // one of the calls gave true.
+    template <class Visit>
+    bool any_near(Vec3d point, double reach, const Visit& visit) const;
     // How far inside a point is; below 0: outside.
     static double depth_in(const Piece& piece, Vec3d point);
     void note_core(bool solid) { (solid ? some_solid_ : some_empty_) = true; }

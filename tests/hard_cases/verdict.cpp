@@ -21,7 +21,7 @@ bool valid(const trace::Ray& ray, const trace::Hit& hit) {
 class Neighbours {
 public:
     Neighbours(const Judge& judge, const RayD& ray, std::uint32_t flags)
-        : judge_(judge), flags_(flags), speed_(length(ray.direction)) {
+        : judge_(judge), flags_(flags), speed_(length(ray.direction)), t_min_(ray.t_min) {
         const Vec3d d = ray.direction * (1 / speed_);
         const Vec3d other = std::abs(d.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
         const Vec3d u = normalize(cross(d, other));
@@ -60,19 +60,52 @@ public:
         return std::any_of(answers_.begin(), answers_.end(),
                            [](const Answer& answer) { return !answer.first.has_value(); });
     }
+    // Whether all of them are in the solid, or within `wide` of it along the ray, at one time before t. If
+    // not, a ray that rounding bends may be outside until then.
+    [[nodiscard]] bool blocked_before(double t) const {
+        constexpr double wide = 4 * step;
+        std::vector<std::pair<double, int>> changes;
+        int rays = 0;
+        for (const Answer& answer : answers_) {
+            if (answer.filled) continue;
+            ++rays;
+            double end = -std::numeric_limits<double>::infinity();
+            for (std::size_t i = 0; i + 1 < answer.events.size(); i += 2) {
+                const double from = std::max(answer.events[i].t - wide / speed_, std::max(end, t_min_));
+                end = answer.events[i + 1].t + wide / speed_;
+                if (from >= end) continue;
+                changes.emplace_back(from, 1);
+                changes.emplace_back(end, -1);
+            }
+        }
+        std::sort(changes.begin(), changes.end());
+        int inside = 0;
+        for (const auto& [time, change] : changes) {
+            if (time >= t) break;
+            inside += change;
+            if (inside == rays) return true;
+        }
+        return false;
+    }
+    // Whether one of the rays has a hit at t, from this side of the surface. arrived: when the latest of them
+    // came to the solid for it.
+    [[nodiscard]] bool some_hit(double t, bool front, double bound, double& arrived) const {
+        bool found = false;
+        for (const Answer& answer : answers_) {
+            for (std::size_t i = 0; i < answer.events.size(); ++i) {
+                const Event& event = answer.events[i];
+                if (event.open || event.enters != front) continue;
+                if (std::abs(event.t - t) * speed_ > bound + event.core_length) continue;
+                arrived = std::max(found ? arrived : -1e300, front || i == 0 ? t : answer.events[i - 1].t);
+                found = true;
+            }
+        }
+        return found;
+    }
     // Whether one of the rays meets nothing earlier than t, less `bound` (in units of R).
     [[nodiscard]] bool some_free_before(double t, double bound) const {
         return std::any_of(answers_.begin(), answers_.end(), [&](const Answer& answer) {
             return !answer.first.has_value() || (t - answer.first->t) * speed_ <= bound;
-        });
-    }
-    // Whether one of the rays has a hit at t, from this side of the surface.
-    [[nodiscard]] bool some_hit(double t, bool front, double bound) const {
-        return std::any_of(answers_.begin(), answers_.end(), [&](const Answer& answer) {
-            return std::any_of(answer.events.begin(), answer.events.end(), [&](const Event& event) {
-                return !event.open && event.enters == front &&
-                       std::abs(event.t - t) * speed_ <= bound + event.core_length;
-            });
         });
     }
     // Whether t lies between the earliest and the latest of their first hits.
@@ -91,18 +124,20 @@ private:
     struct Answer {
         std::vector<Event> events;
         std::optional<Event> first;
+        bool filled = false; // without thin gaps
     };
 
     void add(const RayD& ray) {
         const std::vector<Event> events = judge_.events(ray);
-        answers_.push_back({events, Judge::first(events, ray, flags_)});
+        answers_.push_back({events, Judge::first(events, ray, flags_), false});
         const std::vector<Event> filled = judge_.without_thin_gaps(events, ray, step);
-        answers_.push_back({filled, Judge::first(filled, ray, flags_)});
+        answers_.push_back({filled, Judge::first(filled, ray, flags_), true});
     }
 
     const Judge& judge_;
     std::uint32_t flags_;
     double speed_;
+    double t_min_;
     std::vector<Answer> answers_;
 };
 
@@ -143,20 +178,29 @@ Judgement judge_hit(const Judge& judge, const trace::Ray& ray, std::uint32_t fla
         judgement.dt = std::abs(t - truth->t) * speed;
         if (judgement.dt <= bound + truth->core_length && same_record(*truth, hit)) return judgement;
     }
+    const Vec3d point = exact.origin + exact.direction * t;
+    const Event face{.side = hit.side, .layer = hit.layer, .normal = to_double(hit.normal)};
+    if (traced && truth.has_value() && judgement.dt <= bound && truth->enters == hit.front &&
+        judge.near_face(point, bound, face, leaves_wall(hit))) {
+        judgement.verdict = Verdict::beside;
+        return judgement;
+    }
     Neighbours near(judge, exact, flags);
     if (!traced) {
-        judgement.verdict = near.some_miss() ? Verdict::excused : Verdict::missed;
+        judgement.verdict =
+            near.some_miss() || !near.blocked_before(exact.t_max) ? Verdict::excused : Verdict::missed;
         return judgement;
     }
     near.aim(exact, t);
-    const Vec3d point = exact.origin + exact.direction * t;
-    const Event face{.side = hit.side, .layer = hit.layer, .normal = to_double(hit.normal)};
     // A ray that grazes a face meets it anywhere along it.
     const bool on_face = judge.near_passage(point, bound, exact.direction, hit.front);
-    const bool is_there = near.some_hit(t, hit.front, bound) || on_face ||
+    double arrived = t;
+    const bool is_there = near.some_hit(t, hit.front, bound, arrived) || on_face ||
                           (near.between(t) && judge.near_boundary(point, bound));
+    const bool nothing_before =
+        near.some_free_before(t, bound) || !near.blocked_before(arrived - 5 * bound / speed);
     const bool in_core = truth.has_value() && truth->core_length > 0;
-    if (!is_there || !near.some_free_before(t, bound))
+    if (!is_there || !nothing_before)
         judgement.verdict = truth.has_value() ? Verdict::wrong_time : Verdict::invented;
     else if (!in_core && !judge.near_face(point, bound, face, leaves_wall(hit)))
         judgement.verdict = Verdict::wrong_record;

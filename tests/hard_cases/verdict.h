@@ -5,10 +5,12 @@
 // the hit is in the core) and what it says of the surface is what is there. Where it does not, rounding may
 // decide: rays moved sideways by 1e-5 and 1e-6 R, limits of t moved by as much, and rays moved by no more
 // than 1e-5 R to points just inside of what the traced point is next to, are judged too.
-//   A miss is excused if one of those misses.
-//   A hit is excused if one of those meets nothing earlier, and one has a hit there; or the point lies on
-//   a face by which the ray enters or leaves; or t lies between their hits and on the boundary of the solid.
-// Whatever is excused is counted.
+//   A miss is excused if one of those misses, or if they are nowhere all in the solid: a ray in the plane of
+//   a wall may be on either side of it from one triangle to the next. A hit is excused if one of those meets
+//   nothing earlier, or they are nowhere all in the solid before it; and one has a hit there, or the point
+//   lies on a face by which the ray enters or leaves, or t lies between their hits and on the boundary of the
+//   solid.
+// Whatever is excused is counted, hits on the other face of an edge apart from the rest.
 #pragma once
 
 #include "judge.h"
@@ -20,6 +22,7 @@ namespace spa::test {
 
 enum class Verdict : unsigned {
     agrees,
+    beside,       // t agrees; at an edge the record is of the other face
     excused,      // rounding decides
     missed,       // a hit is missing
     invented,     // a hit where there is none
@@ -27,7 +30,7 @@ enum class Verdict : unsigned {
     wrong_record, // t is right; side, front, layer or normal belong to nothing that is there
     invalid,      // NaN, or outside the limits of t or of the map
 };
-constexpr std::size_t verdict_count = 7;
+constexpr std::size_t verdict_count = 8;
 const char* name(Verdict verdict);
 
 // 1e-5 R, and beyond 20 R what the rounding of the ray's own points amounts to.
