@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-# What a program that only loads `.spa` files needs (component "development": spa::core, spa::container,
-# their headers, find_package and pkg-config files) and the command (component "tools").
+# What a program needs that loads `.spa` files (component "development": spa::core and spa::container) or traces
+# them on the CPU (spa::trace, if it was built: find_package(spa COMPONENTS trace), pkg-config spa-trace), with
+# headers, find_package and pkg-config files; and the command (component "tools").
 # Users write #include <libspa/core/...> and <formats/container/...>, as the source tree is laid out, so
 # that the headers' own relative includes hold. What only the sources include is not installed.
 include(CMakePackageConfigHelpers)
 
 set(spa_exported_targets spa_core spa_container)
 set(spa_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/spa)
+if(TARGET spa_trace)
+  set(spa_traced_targets spa_trace)
+endif()
 
-foreach(target IN LISTS spa_exported_targets)
+foreach(target IN LISTS spa_exported_targets spa_traced_targets)
   target_include_directories(${target} INTERFACE
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/spa>)
 endforeach()
@@ -25,6 +29,20 @@ install(FILES ${core_headers}
 install(FILES ${container_headers}
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spa/formats/container COMPONENT development)
 
+# Apart, so that who only loads files needs neither Highway nor oneTBB.
+if(TARGET spa_trace)
+  install(TARGETS spa_trace EXPORT spaTraceTargets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+  install(EXPORT spaTraceTargets NAMESPACE spa:: DESTINATION ${spa_package_dir} COMPONENT development)
+  set(trace_headers fan.h march.h ray.h scene.h shade.h space.h trace.h trace_map.h)
+  list(TRANSFORM trace_headers PREPEND libspa/trace/)
+  install(FILES ${trace_headers}
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spa/libspa/trace COMPONENT development)
+endif()
+# The tracing text, for shaders too.
+install(DIRECTORY shaders/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spa/shaders COMPONENT development
+  FILES_MATCHING PATTERN "spa_*.h")
+
 configure_package_config_file(cmake/spaConfig.cmake.in ${PROJECT_BINARY_DIR}/spaConfig.cmake
   INSTALL_DESTINATION ${spa_package_dir})
 # Before 1.0 a minor version may change the interface.
@@ -35,9 +53,15 @@ install(FILES ${PROJECT_BINARY_DIR}/spaConfig.cmake ${PROJECT_BINARY_DIR}/spaCon
 
 # From the folder of spa.pc up to the prefix.
 file(RELATIVE_PATH spa_pc_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
-configure_file(cmake/spa.pc.in ${PROJECT_BINARY_DIR}/spa.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/spa.pc
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+set(spa_packages spa)
+if(TARGET spa_trace)
+  list(APPEND spa_packages spa-trace)
+endif()
+foreach(package IN LISTS spa_packages)
+  configure_file(cmake/${package}.pc.in ${PROJECT_BINARY_DIR}/${package}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${package}.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endforeach()
 
 install(FILES LICENSE formats/SPA.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 if(TARGET spa)
