@@ -6,10 +6,10 @@
 //   cores      for each node the W beyond which everything below it is solid; SPA_FAR: there is none
 //   samples    W of every sample and surface: 1/|q|_1 of the stored point q (map space); SPA_FAR = none;
 //              as an inner end: the centre is reached. Plane by plane: outer 0, inner 0, outer 1, ...
-//   cells      one word a cell, as the nodes' last level: 0 = both triangles are pure, else where its two
-//   lists of
-//              prisms are
-//   prisms     what stands in mixed triangles
+//   cells      one word a cell, in the order of the nodes' last level: 0 = both triangles are pure, else
+//   where its
+//              two lists are
+//   prisms     what stands in mixed triangles, and for each triangle of such a cell its list (SPA_LIST_WORDS)
 //   depths     r/R of the outermost surface, one float a sample: what fan and march read
 //   images     colours and normals of every surface
 #ifndef SPA_MAP_H
@@ -114,6 +114,7 @@ struct SpaMap {
     float3 box_high;
 };
 
+// The words are believed: they come from TraceMap, not from a file.
 SPA_FUNCTION SpaMap spa_open(SpaWords words) {
     SpaMap map;
     map.words = words;

@@ -25,8 +25,8 @@ SPA_BEGIN
 // takes off, so that no stretch is left before its end.
 #define SPA_LATER 1.0000004f
 
-// The float of a node's code: no less than what was encoded as a lower end, no more as an upper end,
-// reversed.
+// The float of a node's code. Codes are rounded outward: a lower end comes out no greater, an upper end no
+// less.
 SPA_FUNCTION float spa_decode(SPA_IN(SpaMap) map, uint code) {
     return spa_float(map.code_base + (code << map.code_shift));
 }
@@ -276,11 +276,11 @@ SPA_FUNCTION bool spa_walk(SPA_IN(SpaMap) map, SPA_IN(SpaStretch) stretch, uint 
 
 // When the ray enters and leaves the box in one coordinate: before anything and after everything if it never
 // does.
-SPA_FUNCTION float spa_enters(float position, float direction, float per, float low, float high) {
+SPA_FUNCTION float spa_enters_box(float position, float direction, float per, float low, float high) {
     if (abs(direction) < SPA_TINY) return -SPA_NEVER;
     return ((direction > 0.0f ? low : high) - position) * per;
 }
-SPA_FUNCTION float spa_leaves(float position, float direction, float per, float low, float high) {
+SPA_FUNCTION float spa_leaves_box(float position, float direction, float per, float low, float high) {
     if (abs(direction) < SPA_TINY) return SPA_NEVER;
     return ((direction > 0.0f ? high : low) - position) * per;
 }
@@ -289,12 +289,12 @@ SPA_FUNCTION float spa_leaves(float position, float direction, float per, float 
 SPA_FUNCTION bool spa_in_box(SPA_IN(SpaMap) map, float3 direction, float3 per, SPA_INOUT(SpaChord) chord) {
     float3 low = map.box_low;
     float3 high = map.box_high;
-    float enters = max(spa_enters(chord.foot.x, direction.x, per.x, low.x, high.x),
-                       max(spa_enters(chord.foot.y, direction.y, per.y, low.y, high.y),
-                           spa_enters(chord.foot.z, direction.z, per.z, low.z, high.z)));
-    float leaves = min(spa_leaves(chord.foot.x, direction.x, per.x, low.x, high.x),
-                       min(spa_leaves(chord.foot.y, direction.y, per.y, low.y, high.y),
-                           spa_leaves(chord.foot.z, direction.z, per.z, low.z, high.z)));
+    float enters = max(spa_enters_box(chord.foot.x, direction.x, per.x, low.x, high.x),
+                       max(spa_enters_box(chord.foot.y, direction.y, per.y, low.y, high.y),
+                           spa_enters_box(chord.foot.z, direction.z, per.z, low.z, high.z)));
+    float leaves = min(spa_leaves_box(chord.foot.x, direction.x, per.x, low.x, high.x),
+                       min(spa_leaves_box(chord.foot.y, direction.y, per.y, low.y, high.y),
+                           spa_leaves_box(chord.foot.z, direction.z, per.z, low.z, high.z)));
     chord.starts_inside_sphere = chord.starts_inside_sphere && chord.t0 > enters;
     chord.t0 = max(chord.t0, enters);
     chord.t1 = min(chord.t1, leaves);

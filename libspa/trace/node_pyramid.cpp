@@ -18,10 +18,12 @@ std::uint32_t pattern(float value) { return std::bit_cast<std::uint32_t>(value);
 struct Codes {
     std::uint32_t base = 0, shift = 0;
 
-    Codes(float w_min, float w_core) : base(pattern(w_min * (1 - 2 * margin))) {
-        // The last code stands for what no ray reaches.
-        const std::uint32_t span = pattern(w_core * (1 + 2 * margin)) - base;
+    // The last code stands for what no ray reaches; codes are counted down from it, so none is beyond float.
+    Codes(float w_min, float w_core) {
+        const std::uint32_t top = pattern(w_core * (1 + 2 * margin));
+        const std::uint32_t span = top - pattern(w_min * (1 - 2 * margin));
         while ((span >> shift) + 1 >= last_code) ++shift;
+        base = top - (last_code << shift);
     }
     [[nodiscard]] std::uint32_t low(float w) const { return (pattern(w * (1 - margin)) - base) >> shift; }
     [[nodiscard]] std::uint32_t high(float w) const {

@@ -28,7 +28,7 @@ HWY_INLINE VectorLanes along(const VectorLanes& a, const VectorLanes& b, VF s) {
     return {hn::Add(a.x, hn::Mul(b.x, s)), hn::Add(a.y, hn::Mul(b.y, s)), hn::Add(a.z, hn::Mul(b.z, s))};
 }
 
-// One coordinate of a ray: what the text asks of it with spa_crossing, spa_enters and spa_leaves.
+// One coordinate of a ray: what the text asks of it with spa_crossing, spa_enters_box and spa_leaves_box.
 struct CoordinateLanes {
     VF position, per;
     MF still, rises;

@@ -31,8 +31,8 @@ public:
     // Opened for the text; valid while this object lives and is not moved from.
     [[nodiscard]] const shader::SpaMap& map() const { return map_; }
 
-    // Bytes that a trace touches at most: nodes, samples, cells, prisms. Without images and without what fan
-    // and march read.
+    // Bytes that a trace touches at most: nodes, cores, samples, cells, prisms. Without images and without
+    // what fan and march read.
     [[nodiscard]] std::size_t projective_bytes() const;
     // Bytes of the depths that fan and march read.
     [[nodiscard]] std::size_t depth_bytes() const;
