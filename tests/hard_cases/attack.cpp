@@ -54,8 +54,7 @@ Tally attack_block(const Target& target, RayClass kind, std::uint64_t count, std
         tally.stream_differs += differs ? 1U : 0U;
         tally.occlusion_differs += occlusion ? 1U : 0U;
         if (judgement.verdict == Verdict::agrees) tally.largest_dt = std::max(tally.largest_dt, judgement.dt);
-        const bool wrong = judgement.verdict != Verdict::agrees && judgement.verdict != Verdict::beside &&
-                           judgement.verdict != Verdict::excused;
+        const bool wrong = !is_right(judgement.verdict);
         if ((wrong || differs || occlusion) && tally.failures.size() < most_failures)
             tally.failures.push_back(std::string(differs     ? "stream differs"
                                                  : occlusion ? "occlusion differs"
@@ -80,8 +79,8 @@ void Tally::add(const Tally& other) {
 }
 
 bool Tally::passed() const {
-    return of(Verdict::agrees) + of(Verdict::beside) + of(Verdict::excused) == rays && stream_differs == 0 &&
-           occlusion_differs == 0;
+    return of(Verdict::agrees) + of(Verdict::beside) + of(Verdict::excused) + of(Verdict::core) == rays &&
+           stream_differs == 0 && occlusion_differs == 0;
 }
 
 Tally AttackResult::total() const {
@@ -130,8 +129,9 @@ namespace {
 void print_line(const char* what, const Tally& tally) {
     std::printf("%-26s %11llu %6.2f", what, static_cast<unsigned long long>(tally.rays),
                 100.0 * double(tally.hits) / double(std::max<std::uint64_t>(tally.rays, 1)));
-    for (const Verdict verdict : {Verdict::beside, Verdict::excused, Verdict::missed, Verdict::invented,
-                                  Verdict::wrong_time, Verdict::wrong_record, Verdict::invalid})
+    for (const Verdict verdict :
+         {Verdict::beside, Verdict::excused, Verdict::core, Verdict::missed, Verdict::invented,
+          Verdict::wrong_time, Verdict::wrong_record, Verdict::invalid})
         std::printf(" %9llu", static_cast<unsigned long long>(tally.of(verdict)));
     std::printf(" %8llu %9llu %9.2e\n", static_cast<unsigned long long>(tally.stream_differs),
                 static_cast<unsigned long long>(tally.occlusion_differs), tally.largest_dt);
@@ -140,9 +140,9 @@ void print_line(const char* what, const Tally& tally) {
 } // namespace
 
 void print(const AttackResult& result) {
-    std::printf("%-26s %11s %6s %9s %9s %9s %9s %9s %9s %9s %8s %9s %9s\n", "", "rays", "hit %", "beside",
-                "excused", "missed", "invented", "wrong t", "wr.record", "invalid", "stream", "occlusion",
-                "max dt/R");
+    std::printf("%-26s %11s %6s %9s %9s %9s %9s %9s %9s %9s %9s %8s %9s %9s\n", "", "rays", "hit %", "beside",
+                "excused", "core", "missed", "invented", "wrong t", "wr.record", "invalid", "stream",
+                "occlusion", "max dt/R");
     for (std::size_t part = 0; part < result.parts.size(); ++part) {
         Tally sum;
         for (const Tally& tally : result.tallies[part]) sum.add(tally);

@@ -363,6 +363,14 @@ std::vector<Event> Judge::without_thin_gaps(const std::vector<Event>& events, co
     return left;
 }
 
+double Judge::digits_lost(const RayD& ray) const {
+    if (!(some_solid_ && some_empty_)) return 0;
+    const Vec3d d = normalize(ray.direction);
+    const double foot = std::max(-dot(ray.origin, d), ray.t_min * length(ray.direction));
+    const double distance = length(ray.origin + d * foot);
+    return distance * w_max_ < 1 ? 4 * double(std::numeric_limits<float>::epsilon()) * w_core_ : 0;
+}
+
 double Judge::depth_in(const Piece& piece, Vec3d point) {
     double depth = infinity;
     for (unsigned k = 0; k < piece.count; ++k) {

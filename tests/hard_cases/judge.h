@@ -50,6 +50,8 @@ public:
     [[nodiscard]] std::vector<Event> without_thin_gaps(const std::vector<Event>& events, const RayD& ray,
                                                        double reach) const;
 
+    // How far rounding may move hits of a ray that passes next to the centre, in units of R; 0: it does not.
+    [[nodiscard]] double digits_lost(const RayD& ray) const;
     [[nodiscard]] bool solid(Vec3d point) const;
     // Whether the boundary of a piece of solid passes the point at no more than `reach`.
     [[nodiscard]] bool near_boundary(Vec3d point, double reach) const;

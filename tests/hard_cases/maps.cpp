@@ -136,7 +136,9 @@ OwnedPart random_part(const MadePart& made) {
 
 OwnedPart baked_part(const BakedPart& baked) {
     bake::Options options;
-    options.grid = options.color_grid = {Mapping::octahedral, baked.cells + 1, baked.cells + 1};
+    options.grid = {Mapping::octahedral, baked.cells + 1, baked.cells + 1};
+    if (baked.mapping == Mapping::latlong) options.grid = {Mapping::latlong, 2 * baked.cells, baked.cells};
+    options.color_grid = options.grid;
     options.layers = baked.layers;
     options.depth = baked.depth;
     bake::Result result = bake::bake_model(samples::make_sample(baked.sample, baked.level), options);

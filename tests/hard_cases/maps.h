@@ -52,6 +52,7 @@ struct BakedPart {
     std::uint32_t cells = 32;
     std::uint32_t layers = 1;
     ElementFormat depth = ElementFormat::u16;
+    Mapping mapping = Mapping::octahedral; // latlong: 2 cells x cells
 };
 OwnedPart baked_part(const BakedPart& baked);
 

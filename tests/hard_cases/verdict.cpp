@@ -152,20 +152,8 @@ bool same_record(const Event& event, const trace::Hit& hit) {
            dot(event.normal, to_double(hit.normal)) > 1 - 1e-4;
 }
 
-} // namespace
-
-const char* name(Verdict verdict) {
-    constexpr std::array<const char*, verdict_count> names{"agrees",  "excused",      "missed", "invented",
-                                                           "wrong t", "wrong record", "invalid"};
-    return names[std::size_t(verdict)];
-}
-
-double time_bound(const trace::Ray& ray) {
-    return std::max(step, 4 * double(std::numeric_limits<float>::epsilon()) * length(to_double(ray.origin)));
-}
-
-Judgement judge_hit(const Judge& judge, const trace::Ray& ray, std::uint32_t flags, const trace::Hit& hit,
-                    double bound) {
+Judgement judge_once(const Judge& judge, const trace::Ray& ray, std::uint32_t flags, const trace::Hit& hit,
+                     double bound) {
     if (!valid(ray, hit)) return {Verdict::invalid, 0, hit.valid()};
     const RayD exact = to_double(ray);
     const std::optional<Event> truth = judge.first(exact, flags);
@@ -207,6 +195,30 @@ Judgement judge_hit(const Judge& judge, const trace::Ray& ray, std::uint32_t fla
     else
         judgement.verdict = Verdict::excused;
     return judgement;
+}
+
+} // namespace
+
+const char* name(Verdict verdict) {
+    constexpr std::array<const char*, verdict_count> names{"agrees",  "excused",      "missed", "invented",
+                                                           "wrong t", "wrong record", "invalid"};
+    return names[std::size_t(verdict)];
+}
+
+double time_bound(const trace::Ray& ray) {
+    return std::max(step, 4 * double(std::numeric_limits<float>::epsilon()) * length(to_double(ray.origin)));
+}
+
+Judgement judge_hit(const Judge& judge, const trace::Ray& ray, std::uint32_t flags, const trace::Hit& hit,
+                    double bound) {
+    const Judgement judgement = judge_once(judge, ray, flags, hit, bound);
+    if (is_right(judgement.verdict) || judgement.verdict == Verdict::invalid) return judgement;
+    const double lost = judge.digits_lost(to_double(ray));
+    if (lost == 0) return judgement;
+    Judgement again = judge_once(judge, ray, flags, hit, bound + lost);
+    if (!is_right(again.verdict) && again.verdict != Verdict::wrong_record) return judgement;
+    again.verdict = Verdict::core;
+    return again;
 }
 
 std::string describe(const Judge& judge, const trace::Ray& ray, std::uint32_t flags, const trace::Hit& hit) {

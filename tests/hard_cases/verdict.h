@@ -10,6 +10,8 @@
 //   nothing earlier, or they are nowhere all in the solid before it; and one has a hit there, or the point
 //   lies on a face by which the ray enters or leaves, or t lies between their hits and on the boundary of the
 //   solid.
+// Rays that pass the centre at less than the largest W's distance, where the core is 64 times smaller than
+// that, lose digits: their bound grows by 4 eps W_core R, and what they say of the surface is not judged.
 // Whatever is excused is counted, hits on the other face of an edge apart from the rest.
 #pragma once
 
@@ -24,14 +26,20 @@ enum class Verdict : unsigned {
     agrees,
     beside,       // t agrees; at an edge the record is of the other face
     excused,      // rounding decides
+    core,         // right but for the digits that a ray loses next to the centre
     missed,       // a hit is missing
     invented,     // a hit where there is none
     wrong_time,   // t is beyond the bound
     wrong_record, // t is right; side, front, layer or normal belong to nothing that is there
     invalid,      // NaN, or outside the limits of t or of the map
 };
-constexpr std::size_t verdict_count = 8;
+constexpr std::size_t verdict_count = 9;
 const char* name(Verdict verdict);
+// Whether it says that the answer is right.
+constexpr bool is_right(Verdict verdict) {
+    return verdict == Verdict::agrees || verdict == Verdict::beside || verdict == Verdict::excused ||
+           verdict == Verdict::core;
+}
 
 // 1e-5 R, and beyond 20 R what the rounding of the ray's own points amounts to.
 double time_bound(const trace::Ray& ray);
