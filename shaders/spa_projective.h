@@ -285,6 +285,10 @@ SPA_FUNCTION float spa_leaves_box(float position, float direction, float per, fl
     return ((direction > 0.0f ? high : low) - position) * per;
 }
 
+// A chord is followed this much farther than t_max, relative to its own length and to t: a ray that ends at a
+// hit's t still has that hit.
+#define SPA_LONGER 1e-6f
+
 // Keeps of a chord what lies in the box around the surface. False: nothing does.
 SPA_FUNCTION bool spa_in_box(SPA_IN(SpaMap) map, float3 direction, float3 per, SPA_INOUT(SpaChord) chord) {
     float3 low = map.box_low;
@@ -295,6 +299,7 @@ SPA_FUNCTION bool spa_in_box(SPA_IN(SpaMap) map, float3 direction, float3 per, S
     float leaves = min(spa_leaves_box(chord.foot.x, direction.x, per.x, low.x, high.x),
                        min(spa_leaves_box(chord.foot.y, direction.y, per.y, low.y, high.y),
                            spa_leaves_box(chord.foot.z, direction.z, per.z, low.z, high.z)));
+    chord.t1 = chord.t1 + ((chord.t1 - chord.t0) + abs(chord.foot_t + chord.t1)) * SPA_LONGER;
     chord.starts_inside_sphere = chord.starts_inside_sphere && chord.t0 > enters;
     chord.t0 = max(chord.t0, enters);
     chord.t1 = min(chord.t1, leaves);

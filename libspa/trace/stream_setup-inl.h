@@ -120,6 +120,8 @@ inline void find_chords(const shader::SpaMap& map, const Ray* rays, std::size_t 
             hn::Min(y.leaves(map.box_low.y, map.box_high.y), z.leaves(map.box_low.z, map.box_high.z)));
         unknown = hn::And(unknown, hn::Gt(t0, enters));
         const MF chord = hn::Lt(t0, t1);
+        t1 = hn::Add(
+            t1, hn::Mul(hn::Add(hn::Sub(t1, t0), hn::Abs(hn::Add(foot_t, t1))), hn::Set(df, SPA_LONGER)));
         t0 = hn::Max(t0, enters);
         t1 = hn::Min(t1, leaves);
         const MF real = hn::RebindMask(df, hn::FirstN(du, count - first));

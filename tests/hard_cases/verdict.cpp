@@ -200,8 +200,8 @@ Judgement judge_once(const Judge& judge, const trace::Ray& ray, std::uint32_t fl
 } // namespace
 
 const char* name(Verdict verdict) {
-    constexpr std::array<const char*, verdict_count> names{"agrees",  "excused",      "missed", "invented",
-                                                           "wrong t", "wrong record", "invalid"};
+    constexpr std::array<const char*, verdict_count> names{
+        "agrees", "beside", "excused", "core", "missed", "invented", "wrong t", "wrong record", "invalid"};
     return names[std::size_t(verdict)];
 }
 
