@@ -47,6 +47,7 @@ struct CrossLanes {
     PieceLanes piece;
     PlaneLanes plane; // the prism's outer plane, or its inner one where the ray enters there
     MF starts_inside; // at the piece's start the ray is in the solid
+    MF grazes; // it begins on the edge of a prism that it leaves again at once: the text knows what that is
 };
 
 HWY_INLINE VF plane_at(const PlaneLanes& plane, VF u, VF v) {
@@ -108,42 +109,72 @@ HWY_INLINE CornerLanes corners(const float* samples, const CornerPlaces& places)
             hn::GatherIndex(df, samples, hn::Add(x, places.step_y))};
 }
 
-// Where a prism of two planes begins along a piece, for rays that come from outside (spa_clip_prism).
-template <bool with_inner>
-HWY_INLINE void enter_prism(const PieceLanes& piece, const PlaneLanes& outer, const PlaneLanes& inner, VF& s,
-                            MF& any, MF& by_edge, MF& by_inner, MF& starts_inside) {
-    const VF zero = hn::Zero(df);
-    const VF length = hn::Sub(piece.s1, piece.s0);
-    const VF g0 = hn::Sub(piece.w0, plane_at(outer, piece.u0, piece.v0));
-    const VF g1 = hn::Sub(piece.w1, plane_at(outer, piece.u1, piece.v1));
-    const MF before = hn::Lt(g0, zero);
-    const MF after = hn::Lt(g1, zero);
-    const VF cut = hn::Add(piece.s0, hn::Mul(length, hn::Div(g0, hn::Sub(g0, g1))));
-    any = hn::Not(hn::And(before, after));
-    const VF entry = hn::Min(cut, piece.s1);
-    const MF cut_entry = hn::And(before, hn::Gt(entry, piece.s0));
-    s = hn::IfThenElse(cut_entry, entry, piece.s0);
-    by_edge = hn::Not(cut_entry);
-    by_inner = no_lanes();
-    starts_inside = hn::Not(before);
-    if constexpr (with_inner) {
-        VF end = piece.s1;
-        end = hn::IfThenElse(hn::And(hn::AndNot(before, after), hn::Lt(cut, end)), cut, end);
-        const MF bounded = hn::Lt(inner.c, hn::Set(df, SPA_FAR));
-        const VF thicker = hn::Mul(hn::Set(df, SPA_THICKER), hn::Min(piece.w0, piece.w1));
-        const VF h0 = hn::Sub(plane_at(inner, piece.u0, piece.v0), hn::Sub(piece.w0, thicker));
-        const VF h1 = hn::Sub(plane_at(inner, piece.u1, piece.v1), hn::Sub(piece.w1, thicker));
-        const MF h_before = hn::And(bounded, hn::Lt(h0, zero));
-        const MF h_after = hn::And(bounded, hn::Lt(h1, zero));
-        const VF h_cut = hn::Add(piece.s0, hn::Mul(length, hn::Div(h0, hn::Sub(h0, h1))));
-        const VF h_entry = hn::Min(h_cut, piece.s1);
-        by_inner = hn::And(h_before, hn::Gt(h_entry, s));
-        s = hn::IfThenElse(by_inner, h_entry, s);
-        by_edge = hn::AndNot(by_inner, by_edge);
-        end = hn::IfThenElse(hn::And(hn::AndNot(h_before, h_after), hn::Lt(h_cut, end)), h_cut, end);
-        any = hn::And(hn::AndNot(hn::And(h_before, h_after), any), hn::Le(s, end));
-        starts_inside = hn::And(any, hn::Le(s, piece.s0));
+// Where the first prism in a triangle begins along a piece, for rays that come from outside.
+struct EntryLanes {
+    MF any;
+    VF s;
+    MF by_edge, inner;
+    VU layer;
+    PlaneLanes plane;
+    MF starts_inside, grazes;
+
+    // One more prism, between two planes (spa_clip_prism).
+    template <bool with_inner>
+    HWY_INLINE void add(const PieceLanes& piece, const PlaneLanes& outer_plane, const PlaneLanes& inner_plane,
+                        std::uint32_t of_layer) {
+        const VF zero = hn::Zero(df);
+        const VF length = hn::Sub(piece.s1, piece.s0);
+        const VF g0 = hn::Sub(piece.w0, plane_at(outer_plane, piece.u0, piece.v0));
+        const VF g1 = hn::Sub(piece.w1, plane_at(outer_plane, piece.u1, piece.v1));
+        const MF before = hn::Lt(g0, zero);
+        MF after = hn::Lt(g1, zero);
+        const VF cut = hn::Add(piece.s0, hn::Mul(length, hn::Div(g0, hn::Sub(g0, g1))));
+        MF met = hn::Not(hn::And(before, after));
+        const VF entry = hn::Min(cut, piece.s1);
+        const MF cut_entry = hn::And(before, hn::Gt(entry, piece.s0));
+        VF at = hn::IfThenElse(cut_entry, entry, piece.s0);
+        MF edge = hn::Not(cut_entry);
+        MF inside = hn::Not(before);
+        MF by_inner = no_lanes();
+        if constexpr (with_inner) {
+            VF end = piece.s1;
+            end = hn::IfThenElse(hn::And(hn::AndNot(before, after), hn::Lt(cut, end)), cut, end);
+            const MF bounded = hn::Lt(inner_plane.c, hn::Set(df, SPA_FAR));
+            const VF thicker = hn::Mul(hn::Set(df, SPA_THICKER), hn::Min(piece.w0, piece.w1));
+            const VF h0 = hn::Sub(plane_at(inner_plane, piece.u0, piece.v0), hn::Sub(piece.w0, thicker));
+            const VF h1 = hn::Sub(plane_at(inner_plane, piece.u1, piece.v1), hn::Sub(piece.w1, thicker));
+            const MF h_before = hn::And(bounded, hn::Lt(h0, zero));
+            const MF h_after = hn::And(bounded, hn::Lt(h1, zero));
+            const VF h_cut = hn::Add(piece.s0, hn::Mul(length, hn::Div(h0, hn::Sub(h0, h1))));
+            const VF h_entry = hn::Min(h_cut, piece.s1);
+            by_inner = hn::And(h_before, hn::Gt(h_entry, at));
+            at = hn::IfThenElse(by_inner, h_entry, at);
+            edge = hn::AndNot(by_inner, edge);
+            end = hn::IfThenElse(hn::And(hn::AndNot(h_before, h_after), hn::Lt(h_cut, end)), h_cut, end);
+            met = hn::And(hn::AndNot(hn::And(h_before, h_after), met), hn::Le(at, end));
+            inside = hn::And(met, hn::Le(at, piece.s0));
+            after = hn::Or(after, h_after);
+        }
+        starts_inside = hn::Or(starts_inside, inside);
+        grazes = hn::Or(grazes, hn::And(met, hn::And(edge, after)));
+        const MF better = hn::And(met, hn::Lt(at, s));
+        any = hn::Or(any, met);
+        s = hn::IfThenElse(better, at, s);
+        by_edge = select_mask(better, edge, by_edge);
+        if constexpr (with_inner) {
+            inner = select_mask(better, by_inner, inner);
+            layer = hn::IfThenElse(hn::RebindMask(du, better), hn::Set(du, of_layer), layer);
+            plane = select(better, select(by_inner, inner_plane, outer_plane), plane);
+        } else {
+            plane = select(better, outer_plane, plane);
+        }
     }
+};
+
+HWY_INLINE EntryLanes no_entry() {
+    const VF zero = hn::Zero(df);
+    const MF none = no_lanes();
+    return {none, hn::Set(df, 2.0F), none, none, hn::Zero(du), {zero, zero, zero}, none, none};
 }
 
 // The rays of `lanes` through the cells: all of them pure.
@@ -187,18 +218,9 @@ HWY_INLINE CrossLanes cross_cells(const shader::SpaMap& map, const StretchLanes&
     const auto* const samples = reinterpret_cast<const float*>(map.words.first + map.samples);
     const std::size_t count = std::size_t(map.width) * map.height;
 
-    CrossLanes result;
-    result.any = no_lanes();
-    result.s = hn::Set(df, 2.0F);
-    result.by_edge = result.inner = result.starts_inside = no_lanes();
-    result.layer = hn::Zero(du);
-    MF first_any = no_lanes();
-    VF first_s = hn::Set(df, 2.0F);
-    VF second_s = hn::Set(df, 2.0F);
-    MF first_edge = no_lanes(), first_inner = no_lanes(), second_any = no_lanes(), second_edge = no_lanes(),
-       second_inner = no_lanes();
-    VU first_layer = hn::Zero(du), second_layer = hn::Zero(du);
-    PlaneLanes first_plane{zero, zero, zero}, second_plane{zero, zero, zero};
+    EntryLanes in_first = no_entry();
+    EntryLanes in_second = no_entry();
+    const MF second_beyond = hn::Not(first_beyond);
     const std::uint32_t layers = (map.surfaces + 1) / 2;
     for (std::uint32_t k = 0; k < layers; ++k) {
         const CornerLanes outer = corners(samples + (with_inner ? 2 * k : k) * count, places);
@@ -208,49 +230,21 @@ HWY_INLINE CrossLanes cross_cells(const shader::SpaMap& map, const StretchLanes&
             break;
         CornerLanes inner = outer;
         if constexpr (with_inner) inner = corners(samples + (2 * k + 1) * count, places);
-        VF s;
-        MF any, edge, by_inner, inside;
-        PlaneLanes plane = outer.plane(first_beyond);
-        PlaneLanes inner_plane = inner.plane(first_beyond);
-        enter_prism<with_inner>(first, plane, inner_plane, s, any, edge, by_inner, inside);
-        result.starts_inside = hn::Or(result.starts_inside, inside);
-        MF better = hn::And(any, hn::Lt(s, first_s));
-        first_any = hn::Or(first_any, any);
-        first_s = hn::IfThenElse(better, s, first_s);
-        first_edge = select_mask(better, edge, first_edge);
-        if constexpr (with_inner) {
-            first_inner = select_mask(better, by_inner, first_inner);
-            first_layer = hn::IfThenElse(hn::RebindMask(du, better), hn::Set(du, k), first_layer);
-            plane = select(by_inner, inner_plane, plane);
-        }
-        first_plane = select(better, plane, first_plane);
-
-        const MF second_beyond = hn::Not(first_beyond);
-        plane = outer.plane(second_beyond);
-        inner_plane = inner.plane(second_beyond);
-        enter_prism<with_inner>(second, plane, inner_plane, s, any, edge, by_inner, inside);
-        better = hn::And(any, hn::Lt(s, second_s));
-        second_any = hn::Or(second_any, any);
-        second_s = hn::IfThenElse(better, s, second_s);
-        second_edge = select_mask(better, edge, second_edge);
-        if constexpr (with_inner) {
-            second_inner = select_mask(better, by_inner, second_inner);
-            second_layer = hn::IfThenElse(hn::RebindMask(du, better), hn::Set(du, k), second_layer);
-            plane = select(by_inner, inner_plane, plane);
-        }
-        second_plane = select(better, plane, second_plane);
+        in_first.add<with_inner>(first, outer.plane(first_beyond), inner.plane(first_beyond), k);
+        in_second.add<with_inner>(second, outer.plane(second_beyond), inner.plane(second_beyond), k);
     }
-    const MF in_second = hn::AndNot(first_any, hn::And(second_any, two));
-    result.any = hn::Or(first_any, in_second);
-    result.s = hn::IfThenElse(in_second, second_s, first_s);
-    result.by_edge = select_mask(in_second, second_edge, first_edge);
-    result.inner = select_mask(in_second, second_inner, first_inner);
-    result.layer = hn::IfThenElse(hn::RebindMask(du, in_second), second_layer, first_layer);
-    result.beyond =
-        hn::IfThenElse(hn::RebindMask(du, hn::Xor(first_beyond, in_second)), hn::Set(du, 1), hn::Zero(du));
-    result.piece = select(in_second, second, first);
-    result.plane = select(in_second, second_plane, first_plane);
-    return result;
+    const MF later = hn::AndNot(in_first.any, hn::And(in_second.any, two));
+    const MU later_u = hn::RebindMask(du, later);
+    return {hn::Or(in_first.any, later),
+            hn::IfThenElse(later, in_second.s, in_first.s),
+            select_mask(later, in_second.by_edge, in_first.by_edge),
+            select_mask(later, in_second.inner, in_first.inner),
+            hn::IfThenElse(later_u, in_second.layer, in_first.layer),
+            hn::IfThenElseZero(hn::RebindMask(du, hn::Xor(first_beyond, later)), hn::Set(du, 1)),
+            select(later, second, first),
+            select(later, in_second.plane, in_first.plane),
+            in_first.starts_inside,
+            hn::Or(in_first.grazes, hn::And(in_second.grazes, two))};
 }
 
 } // namespace spa::trace::HWY_NAMESPACE
