@@ -92,7 +92,6 @@ SPA_FUNCTION bool spa_trace_march(SPA_IN(SpaMap) map, SPA_IN(SpaRay) ray, SPA_IN
     bool front = true;
     for (uint i = 1u; i <= steps && !found; ++i) {
         float next = half_chord * (2.0f * float(i) / float(steps) - 1.0f);
-        if (i == steps) next = chord.t1;
         next = min(next, chord.t1);
         if (next <= time) continue;
         last_time = time;

@@ -209,9 +209,10 @@ void draw(const char* out, const char* map_path) {
     for (std::uint32_t y = 0; y < height; ++y) {
         for (std::uint32_t x = 0; x < width; ++x) {
             Vec3f sum;
-            for (unsigned k = 0; k < samples_a_side * samples_a_side; ++k)
-                sum = sum + radiance(x + (k % samples_a_side + 0.5) / samples_a_side,
-                                     y + (double(k / samples_a_side) + 0.5) / samples_a_side);
+            for (unsigned row = 0; row < samples_a_side; ++row)
+                for (unsigned column = 0; column < samples_a_side; ++column)
+                    sum =
+                        sum + radiance(x + (column + 0.5) / samples_a_side, y + (row + 0.5) / samples_a_side);
             sum = sum * (1.0F / (samples_a_side * samples_a_side));
             image.pixels.push_back(
                 {linear_to_srgb(sum.x), linear_to_srgb(sum.y), linear_to_srgb(sum.z), std::uint8_t(255)});
