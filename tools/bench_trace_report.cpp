@@ -127,15 +127,16 @@ std::string equal_table(const TraceModel& model) {
     std::string text = "Maps and the simplified mesh of equal mean |dt|, between two steps of the ladder\n" +
                        pad_right("", name_width) + column("ns", 7) + column("LOD", 7) + column("bytes", 9) +
                        column("LOD", 9) + column("speed", 8) + column("size", 8) + column("miss%", 8) +
-                       column("LOD", 7) + "  faster\n";
+                       column("LOD", 7) + "  faster smaller\n";
     for (const EqualError& e : all) {
         const double speed = e.lod.ns / e.ns;
+        const double size = e.lod.bytes / double(e.map->bytes);
         text += pad_right(e.map->name, name_width) + column(nanoseconds_text(e.ns), 7) +
                 column(nanoseconds_text(e.lod.ns), 7) + column(size_text(e.map->bytes), 9) +
                 column(size_text(std::uint64_t(e.lod.bytes)), 9) + column(ratio_text(speed) + "x", 8) +
-                column(ratio_text(e.lod.bytes / double(e.map->bytes)) + "x", 8) +
-                column(share_text(e.missed), 8) + column(share_text(e.lod.missed), 7) +
-                (speed >= 1 ? "  map" : "  LOD") + "\n";
+                column(ratio_text(size) + "x", 8) + column(share_text(e.missed), 8) +
+                column(share_text(e.lod.missed), 7) + "  " + pad_right(speed >= 1 ? "map" : "LOD", 7) +
+                (size >= 1 ? "map" : "LOD") + "\n";
     }
     return text + "\n";
 }

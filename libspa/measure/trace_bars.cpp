@@ -168,9 +168,10 @@ std::optional<EqualLod> equal_lod(const TraceBenchmark& benchmark, double mean, 
     for (const MethodReport& fine : benchmark.methods) {
         if (fine.family != Family::lod || !fastest_ns(&fine, thread_count)) continue;
         const double to = mean_distance(fine);
-        if (coarse != nullptr && mean_distance(*coarse) >= mean && to <= mean && to > 0) {
+        if (coarse == nullptr && to <= mean) coarse = &fine;
+        if (coarse != nullptr && to <= mean) {
             const double from = mean_distance(*coarse);
-            const double at = from > to ? std::log(from / mean) / std::log(from / to) : 0;
+            const double at = from > mean && to > 0 ? std::log(from / mean) / std::log(from / to) : 0;
             return EqualLod{between(*fastest_ns(coarse, thread_count), *fastest_ns(&fine, thread_count), at),
                             between(double(coarse->bytes), double(fine.bytes), at),
                             between(missed_share(*coarse), missed_share(fine), at)};

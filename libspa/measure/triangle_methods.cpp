@@ -2,7 +2,7 @@
 #include "stopwatch.h"
 #include "trace_methods.h"
 
-#include <tbb/task_arena.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <limits>
@@ -25,8 +25,9 @@ public:
     double build(bool one_thread) {
         double seconds = 0;
         if (one_thread) {
-            tbb::task_arena arena(1);
-            arena.execute([&] { seconds = thread_seconds_of([&] { peer_.build(); }); });
+            // An arena of one thread would not do: Embree has one of its own.
+            const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+            seconds = thread_seconds_of([&] { peer_.build(); });
         } else {
             seconds = seconds_of([&] { peer_.build(); });
         }

@@ -61,7 +61,7 @@ TEST(EqualLod, LiesBetweenTwoStepsInLogarithms) {
     EXPECT_NEAR(lod->bytes, 20000, 1e-6);
     EXPECT_NEAR(lod->missed, 0.01, 1e-9);
     EXPECT_NEAR(equal_lod(benchmark(), 1e-2, 1)->ns, 100, 1e-9);
-    EXPECT_FALSE(equal_lod(benchmark(), 2e-2, 1).has_value());
+    EXPECT_NEAR(equal_lod(benchmark(), 2e-2, 1)->ns, 100, 1e-9) << "the coarsest is more exact already";
     EXPECT_FALSE(equal_lod(benchmark(), 5e-5, 1).has_value());
     EXPECT_FALSE(equal_lod(benchmark(), 1e-3, 2).has_value()) << "not timed with two threads";
 }
