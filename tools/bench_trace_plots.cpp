@@ -58,7 +58,8 @@ Series series_of(const TraceModel& model, const std::string& title, const std::s
         const SetErrors* const errors = method.errors_of(RaySet::chords);
         const TraceTiming* const timing = timing_of(method, time);
         if (!belongs(method) || errors == nullptr || timing == nullptr) continue;
-        if (!(errors->errors.distance.mean > 0)) continue;
+        constexpr double rounding = 1e-7; // what has no more error than that is exact
+        if (!(errors->errors.distance.mean > rounding)) continue;
         series.points.push_back(
             {timing->ns.median, double(method.bytes), errors->errors.distance.mean, label_of(method)});
     }

@@ -124,10 +124,11 @@ std::string other_table(const TraceModel& model) {
 std::string equal_table(const TraceModel& model) {
     const std::vector<EqualError> all = equal_errors(model);
     if (all.empty()) return "";
-    std::string text = "Maps and the simplified mesh of equal mean |dt|, between two steps of the ladder\n" +
-                       pad_right("", name_width) + column("ns", 7) + column("LOD", 7) + column("bytes", 9) +
-                       column("LOD", 9) + column("speed", 8) + column("size", 8) + column("miss%", 8) +
-                       column("LOD", 7) + "  faster smaller\n";
+    std::string text =
+        "Maps and the simplified mesh of equal mean |dt|, between two steps, or the model itself\n" +
+        pad_right("", name_width) + column("ns", 7) + column("LOD", 7) + column("bytes", 9) +
+        column("LOD", 9) + column("speed", 8) + column("size", 8) + column("miss%", 8) + column("LOD", 7) +
+        "  faster smaller\n";
     for (const EqualError& e : all) {
         const double speed = e.lod.ns / e.ns;
         const double size = e.lod.bytes / double(e.map->bytes);
@@ -142,8 +143,8 @@ std::string equal_table(const TraceModel& model) {
 }
 
 std::string bar_line(const Bar& bar) {
-    std::string text = pad_right(bar.name, 35) + pad_right(bar.model, 9) + " " + pad_right(bar.method, 16) +
-                       pad_left(significant(bar.value, 3), 8) + (bar.at_least ? " >= " : " <= ") +
+    std::string text = pad_right(bar.name, 33) + pad_right(bar.model, 9) + " " + pad_right(bar.method, 16) +
+                       pad_left(significant(bar.value, 3), 9) + (bar.at_least ? " >= " : " <= ") +
                        pad_right(significant(bar.limit, 3) + " " + bar.unit, 10) +
                        pad_right(bar.reached() ? "reached" : "MISSED", 8) + share_text(bar.missed);
     if (bar.rival_missed) text += " (rival " + share_text(*bar.rival_missed) + ")";

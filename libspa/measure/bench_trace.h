@@ -83,8 +83,7 @@ struct TraceBenchOptions {
     // Writes a map as a file does, and opens it `runs` times for `ray`. May be empty: no FileTrip.
     std::function<FileTrip(const SphericalMap& map, const trace::Ray& ray, unsigned runs)> through_file;
     std::function<bool(double share, const std::string& step)> progress; // false: cancels; may be empty
-};
-// From 0.05 to 1.1e-5 R, three a decade.
+};// From 0.05 to 5e-5 R, three a decade.
 std::vector<double> default_lod_errors();
 
 // Everything is timed in turns, run by run. Throws as bake_model does, and bake::Cancelled.

@@ -158,7 +158,7 @@ private:
 
 std::vector<double> default_lod_errors() {
     std::vector<double> errors;
-    for (int i = 0; i <= 11; ++i) errors.push_back(0.05 * std::pow(10, -i / 3.0));
+    for (int i = 0; i <= 9; ++i) errors.push_back(0.05 * std::pow(10, -i / 3.0));
     return errors;
 }
 

@@ -93,8 +93,8 @@ private:
     void first_ray(const MethodReport& map) {
         const MethodReport* const mesh = benchmark_.find("mesh");
         if (!map.file || mesh == nullptr || !mesh->build_seconds) return;
-        add("file to first ray against the build", map, *mesh->build_seconds / map.file->first_ray.median, 50,
-            true, "times");
+        add("first ray against the build", map, *mesh->build_seconds / map.file->first_ray.median, 50, true,
+            "times");
     }
 
     // The worst of all sizes.
@@ -178,7 +178,10 @@ std::optional<EqualLod> equal_lod(const TraceBenchmark& benchmark, double mean, 
         }
         coarse = &fine;
     }
-    return {};
+    const MethodReport* const mesh = benchmark.find("mesh");
+    const std::optional<double> ns = fastest_ns(mesh, thread_count);
+    if (coarse == nullptr || !ns) return {};
+    return EqualLod{*ns, double(mesh->bytes), missed_share(*mesh)};
 }
 
 std::vector<Bar> trace_bars(const std::string& model, const TraceBenchmark& benchmark) {

@@ -16,9 +16,9 @@ struct EqualLod {
     double ns = 0; // of the faster call
     double bytes = 0;
     double missed = 0; // rays in the silhouette band that miss, of all rays
-}; // Of chords, with one number of threads. Where the coarsest step is more exact already, that step; none
-   // where
-// even the finest is less exact.
+}; // Of chords, with one number of threads. Where the coarsest step is more exact already, that step; where
+   // even the finest is less exact,
+// the model itself. None if there are no steps, or the model was not traced.
 std::optional<EqualLod> equal_lod(const TraceBenchmark& benchmark, double mean_distance, unsigned threads);
 
 struct Bar {
