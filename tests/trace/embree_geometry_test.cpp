@@ -177,7 +177,7 @@ TEST(EmbreeGeometry, PacketsAndStreamsHaveTheAnswersOfSingleRays) {
     int hits = 0;
     for (std::size_t first = 0; first < rays.size(); first += 8) {
         RTCRayHit8 packet{};
-        std::array<int, 8> valid{};
+        alignas(32) std::array<int, 8> valid{};
         for (unsigned i = 0; i < 8; ++i) {
             const RTCRayHit one = Device::embree_ray(rays[first + i]);
             rtcCopyHitToHitN(RTCRayHitN_HitN(reinterpret_cast<RTCRayHitN*>(&packet), 8), &one.hit, 8, i);

@@ -45,7 +45,7 @@ TEST(TraceLibrary, FanAndMarchGiveTheTextsAnswers) {
                                       ray.t_min,
                                       {ray.direction.x, ray.direction.y, ray.direction.z},
                                       ray.t_max};
-            const std::uint32_t flags = i % 4;
+            const auto flags = std::uint32_t(i % 4);
             shader::SpaHit expected;
             Hit hit;
             hit.t = 1; // left over
