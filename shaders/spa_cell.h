@@ -24,7 +24,7 @@ SPA_BEGIN
 #define SPA_BY_HALF_PLANE 3u // and above: 3 + index
 
 // Regions of a mixed triangle overlap by this many cells, so that no ray passes between them.
-#define SPA_OVERLAP 1e-6f
+#define SPA_OVERLAP 2e-6f
 // Steps lower than this, relative to w, are rounding and no walls.
 #define SPA_STEP 1e-5f
 // Rounding at the borders of triangles must not make a ray that enters the solid leave and enter again, nor
@@ -295,14 +295,21 @@ SPA_FUNCTION SpaEvent spa_event(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, SPA
     return event;
 }
 
-// Whether the ray at sigma s is between a prism's ends, or outside them by no more than `slack`, relative to
-// w; slack < 0: inside by more than that.
-SPA_FUNCTION bool spa_touches(SPA_IN(SpaPrism) prism, SPA_IN(SpaPiece) piece, float s, float slack) {
+// Whether the ray at sigma s is in the prism, or outside its ends by no more than `slack`, relative to w;
+// slack < 0: inside by more than that.
+SPA_FUNCTION bool spa_touches(SPA_IN(SpaMap) map, SPA_IN(SpaPrism) prism, SPA_IN(SpaPiece) piece, float s,
+                              float slack) {
     float f = piece.s1 > piece.s0 ? (s - piece.s0) / (piece.s1 - piece.s0) : 0.0f;
     float u = piece.u0 + f * (piece.u1 - piece.u0);
     float v = piece.v0 + f * (piece.v1 - piece.v0);
     float w = piece.w0 + f * (piece.w1 - piece.w0);
-    return w * (1.0f + slack) >= spa_at(prism.outer, u, v) && w * (1.0f - slack) <= spa_at(prism.inner, u, v);
+    bool touches =
+        w * (1.0f + slack) >= spa_at(prism.outer, u, v) && w * (1.0f - slack) <= spa_at(prism.inner, u, v);
+    for (uint n = 0u; n < prism.half_planes; n += 1u) {
+        SpaPlane plane = spa_load_plane(map, prism.first + 3u * n);
+        touches = touches && spa_at(plane, u, v) + SPA_OVERLAP >= 0.0f;
+    }
+    return touches;
 }
 
 // Whether the piece begins in the prism, but by rounding: it leaves it by an end that it is at.
@@ -374,7 +381,8 @@ SPA_FUNCTION bool spa_cross(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, SPA_IN(
             // An end at which the ray is may just have been missed.
             for (uint k = 0u; k < count && by == SPA_BY_EDGE; k += 1u) {
                 SpaPrism prism = spa_prism(map, tri, k);
-                if (spa_touches(prism, piece, at, SPA_STEP) && !spa_touches(prism, piece, at, -SPA_STEP))
+                if (spa_touches(map, prism, piece, at, SPA_STEP) &&
+                    !spa_touches(map, prism, piece, at, -SPA_STEP))
                     found = prism;
             }
             state = SPA_OUTSIDE;

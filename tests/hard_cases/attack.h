@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hard rays against the projective trace, single and stream, every one of them judged.
+// Hard rays against the projective trace, single and stream. Of every ray the two are compared to the bit,
+// and so is what occlusion says; every n-th is judged.
 #pragma once
 
 #include "maps.h"
@@ -16,6 +17,7 @@ namespace spa::test {
 struct Tally {
     std::uint64_t rays = 0;
     std::uint64_t hits = 0;
+    std::uint64_t judged = 0;
     std::array<std::uint64_t, verdict_count> verdicts{};
     std::uint64_t stream_differs = 0;    // from the single ray, in any bit
     std::uint64_t occlusion_differs = 0; // from whether there is a hit, single or stream
@@ -33,9 +35,15 @@ struct AttackResult {
     [[nodiscard]] Tally total() const;
 };
 
-// rays_per_class: of each class, shared among the parts. Deterministic, whatever the number of threads.
-AttackResult attack(const std::vector<NamedPart>& parts, std::uint64_t rays_per_class, std::uint64_t seed,
-                    unsigned threads);
+struct AttackOptions {
+    std::uint64_t rays_per_class = 100000; // shared among the parts
+    std::uint64_t judge_every = 1;
+    std::uint64_t seed = 1;
+    unsigned threads = 1;
+};
+
+// Deterministic, whatever the number of threads.
+AttackResult attack(const std::vector<NamedPart>& parts, const AttackOptions& options);
 
 void print(const AttackResult& result);
 

@@ -108,6 +108,32 @@ public:
             return !answer.first.has_value() || (t - answer.first->t) * speed_ <= bound;
         });
     }
+    // Whether they meet the solid differently often, or first meet something else.
+    [[nodiscard]] bool differ() const {
+        const Answer& own = answers_.front();
+        return std::any_of(answers_.begin(), answers_.end(), [&](const Answer& answer) {
+            if (answer.filled) return false;
+            if (answer.events.size() != own.events.size() ||
+                answer.first.has_value() != own.first.has_value())
+                return true;
+            return answer.first.has_value() && (answer.first->enters != own.first->enters ||
+                                                std::abs(answer.first->t - own.first->t) * speed_ > 1e-3);
+        });
+    }
+    // Whether one of the rays has a hit at t that the core hides.
+    [[nodiscard]] bool in_core(double t, double bound) const {
+        return std::any_of(answers_.begin(), answers_.end(), [&](const Answer& answer) {
+            return std::any_of(answer.events.begin(), answer.events.end(), [&](const Event& event) {
+                return event.core_length > 0 && std::abs(event.t - t) * speed_ <= bound + event.core_length;
+            });
+        });
+    }
+    [[nodiscard]] bool open_walls() const {
+        return std::any_of(answers_.begin(), answers_.end(), [](const Answer& answer) {
+            return std::any_of(answer.events.begin(), answer.events.end(),
+                               [](const Event& event) { return event.open; });
+        });
+    }
     // Whether t lies between the earliest and the latest of their first hits.
     [[nodiscard]] bool between(double t) const {
         double first = std::numeric_limits<double>::infinity();
@@ -175,8 +201,11 @@ Judgement judge_once(const Judge& judge, const trace::Ray& ray, std::uint32_t fl
     }
     Neighbours near(judge, exact, flags);
     if (!traced) {
-        judgement.verdict =
-            near.some_miss() || !near.blocked_before(exact.t_max) ? Verdict::excused : Verdict::missed;
+        if (near.some_miss() || !near.blocked_before(exact.t_max))
+            judgement.verdict = Verdict::excused;
+        else
+            judgement.verdict =
+                near.differ() && (flags != 0 || near.open_walls()) ? Verdict::bent : Verdict::missed;
         return judgement;
     }
     near.aim(exact, t);
@@ -187,21 +216,24 @@ Judgement judge_once(const Judge& judge, const trace::Ray& ray, std::uint32_t fl
                           (near.between(t) && judge.near_boundary(point, bound));
     const bool nothing_before =
         near.some_free_before(t, bound) || !near.blocked_before(arrived - 5 * bound / speed);
-    const bool in_core = truth.has_value() && truth->core_length > 0;
+    const bool in_core = near.in_core(t, bound);
     if (!is_there || !nothing_before)
         judgement.verdict = truth.has_value() ? Verdict::wrong_time : Verdict::invented;
     else if (!in_core && !judge.near_face(point, bound, face, leaves_wall(hit)))
         judgement.verdict = Verdict::wrong_record;
     else
         judgement.verdict = Verdict::excused;
+    if (!is_right(judgement.verdict) && near.differ() && judge.near_boundary(point, bound))
+        judgement.verdict = Verdict::bent;
     return judgement;
 }
 
 } // namespace
 
 const char* name(Verdict verdict) {
-    constexpr std::array<const char*, verdict_count> names{
-        "agrees", "beside", "excused", "core", "missed", "invented", "wrong t", "wrong record", "invalid"};
+    constexpr std::array<const char*, verdict_count> names{"agrees",       "beside", "excused",  "bent",
+                                                           "core",         "missed", "invented", "wrong t",
+                                                           "wrong record", "invalid"};
     return names[std::size_t(verdict)];
 }
 
@@ -216,7 +248,9 @@ Judgement judge_hit(const Judge& judge, const trace::Ray& ray, std::uint32_t fla
     const double lost = judge.digits_lost(to_double(ray));
     if (lost == 0) return judgement;
     Judgement again = judge_once(judge, ray, flags, hit, bound + lost);
-    if (!is_right(again.verdict) && again.verdict != Verdict::wrong_record) return judgement;
+    const Vec3d point = to_double(ray.origin) + to_double(ray.direction) * double(hit.t);
+    if (!is_right(again.verdict) && !(hit.valid() && judge.near_boundary(point, bound + lost)))
+        return judgement;
     again.verdict = Verdict::core;
     return again;
 }

@@ -10,9 +10,12 @@
 //   nothing earlier, or they are nowhere all in the solid before it; and one has a hit there, or the point
 //   lies on a face by which the ray enters or leaves, or t lies between their hits and on the boundary of the
 //   solid.
+//   If those rays meet the solid differently often, or first something else, the ray runs within 1e-5 R of edges all along, and
+//   rounding may take it to one side here and to the other there: a hit on the boundary is "bent", and so is
+//   a miss where hits are culled or walls open.
 // Rays that pass the centre at less than the largest W's distance, where the core is 64 times smaller than
-// that, lose digits: their bound grows by 4 eps W_core R, and what they say of the surface is not judged.
-// Whatever is excused is counted, hits on the other face of an edge apart from the rest.
+// that, lose digits: their bound grows by 4 eps W_core R, and it is enough that their hits are on the
+// boundary. Whatever is excused is counted, hits on the other face of an edge apart from the rest.
 #pragma once
 
 #include "judge.h"
@@ -26,6 +29,7 @@ enum class Verdict : unsigned {
     agrees,
     beside,       // t agrees; at an edge the record is of the other face
     excused,      // rounding decides
+    bent,         // the ray runs along edges, and its answer belongs to neither side of them
     core,         // right but for the digits that a ray loses next to the centre
     missed,       // a hit is missing
     invented,     // a hit where there is none
@@ -33,12 +37,12 @@ enum class Verdict : unsigned {
     wrong_record, // t is right; side, front, layer or normal belong to nothing that is there
     invalid,      // NaN, or outside the limits of t or of the map
 };
-constexpr std::size_t verdict_count = 9;
+constexpr std::size_t verdict_count = 10;
 const char* name(Verdict verdict);
 // Whether it says that the answer is right.
 constexpr bool is_right(Verdict verdict) {
     return verdict == Verdict::agrees || verdict == Verdict::beside || verdict == Verdict::excused ||
-           verdict == Verdict::core;
+           verdict == Verdict::bent || verdict == Verdict::core;
 }
 
 // 1e-5 R, and beyond 20 R what the rounding of the ray's own points amounts to.
