@@ -42,7 +42,7 @@ struct FileTrip {
 struct MethodReport {
     std::string name;
     Family family = Family::mesh;
-    std::uint32_t cells = 0, layers = 0, tests = 0; // as in TraceMethod
+    std::uint32_t cells = 0, layers = 0; // as in TraceMethod
     std::uint64_t triangles = 0;
     double target_error = 0;
     std::uint64_t bytes = 0;
@@ -83,7 +83,8 @@ struct TraceBenchOptions {
     // Writes a map as a file does, and opens it `runs` times for `ray`. May be empty: no FileTrip.
     std::function<FileTrip(const SphericalMap& map, const trace::Ray& ray, unsigned runs)> through_file;
     std::function<bool(double share, const std::string& step)> progress; // false: cancels; may be empty
-};// From 0.05 to 5e-5 R, three a decade.
+};
+// From 0.05 to 5e-5 R, three a decade.
 std::vector<double> default_lod_errors();
 
 // Everything is timed in turns, run by run. Throws as bake_model does, and bake::Cancelled.

@@ -124,7 +124,6 @@ std::unique_ptr<TraceMethod> map_method(Family family, const Part& part, std::ui
     method->family = family;
     method->cells = part.mapping == Mapping::octahedral ? part.layers.front().outer.depth.width - 1 : 0;
     method->layers = layers;
-    method->tests = tests;
     return method;
 }
 

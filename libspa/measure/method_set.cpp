@@ -38,7 +38,6 @@ private:
         report.family = method->family;
         report.cells = method->cells;
         report.layers = method->layers;
-        report.tests = method->tests;
         report.triangles = method->triangles;
         report.target_error = method->target_error;
         report.bytes = method->bytes;

@@ -50,9 +50,10 @@ public:
 
     std::vector<Bar> judge() {
         const bool boot = model_.starts_with("boot"), smooth = model_.starts_with("smooth");
+        const bool large = benchmark_.vertices >= 1000000;
         for (const MethodReport* const map : maps_) {
             if (map->cells != usual_cells) continue;
-            if (boot || smooth) {
+            if ((boot || smooth) && large) {
                 against_mesh(*map, "stream against the mesh", CallKind::stream, 10);
                 against_mesh(*map, "single ray against the mesh", CallKind::single, 2);
                 against_lod(*map, smooth ? 3 : 1.5, smooth);

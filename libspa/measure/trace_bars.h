@@ -35,10 +35,10 @@ struct Bar {
     std::optional<double> rival_missed;
 
     [[nodiscard]] bool reached() const { return at_least ? value >= limit : value <= limit; }
-};
-
-// The bars that a model is held to: names that begin with "boot" and "smooth" have their own, others those
-// that any model has. One thread, chords. Bars whose methods were not measured are left out.
+}; // The bars that a model is held to: names that begin with "boot" and "smooth" have their own, those
+   // against
+// triangles from a million vertices on; others those that any model has. One thread, chords. Bars whose
+// methods were not measured are left out.
 std::vector<Bar> trace_bars(const std::string& model, const TraceBenchmark& benchmark);
 
 } // namespace spa::measure

@@ -67,7 +67,6 @@ public:
     Family family = Family::mesh;
     std::uint32_t cells = 0;  // of the map, a side; 0: there is none
     std::uint32_t layers = 0; // of the map
-    std::uint32_t tests = 0;  // fan: rays; 0: N(d2)
     std::uint64_t triangles = 0;
     double target_error = 0; // lod, in R
     std::uint64_t bytes = 0; // that tracing may touch, all of it, hits and colours apart

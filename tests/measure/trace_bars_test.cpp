@@ -37,6 +37,7 @@ MethodReport map(std::uint32_t cells, std::uint32_t layers, double ns, double me
 
 TraceBenchmark benchmark() {
     TraceBenchmark result;
+    result.vertices = 1300000;
     result.methods = {method("fan 10", Family::fan, 300, 1000, 0.1, 30),
                       map(64, 1, 40, 4e-3),
                       map(128, 1, 50, 1e-3),
@@ -89,6 +90,10 @@ TEST(TraceBars, DependOnTheShape) {
     EXPECT_NEAR(find(bars, "stream against the equal LOD").limit, 1.5, 1e-9);
     EXPECT_NEAR(find(bars, "cost of the second layer").value, 1.2, 1e-9);
     EXPECT_THROW(find(bars, "mean distance"), std::runtime_error);
+    TraceBenchmark small = benchmark();
+    small.vertices = 5000;
+    EXPECT_THROW(find(trace_bars("boot:2", small), "stream against the mesh"), std::runtime_error);
+    EXPECT_NO_THROW(find(trace_bars("boot:2", small), "cost of the second layer"));
     const auto others = trace_bars("chair.glb", benchmark());
     ASSERT_EQ(others.size(), 1U);
     EXPECT_EQ(others[0].name, "missed in the interior");
