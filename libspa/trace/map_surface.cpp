@@ -16,6 +16,8 @@ namespace {
 using Plane = shader::SpaPlane;
 
 constexpr float far_w = SPA_FAR;
+// Of samples: a depth of 1e-9 R, where single precision sees nothing; products of such numbers stay finite.
+constexpr float most_w = 1e9F;
 
 const Surface* surface_at(const Part& part, std::uint32_t surface) {
     const Layer& layer = part.layers[surface / 2];
@@ -395,7 +397,7 @@ MapSamples read_samples(const Part& part, std::uint32_t layers) {
         read_depths(surface->depth, depths);
         for (std::size_t i = 0; i < count; ++i)
             if (depths[i] > 0)
-                samples.w[s * count + i] = std::min(float(lengths[i] / double(depths[i])), far_w / 2);
+                samples.w[s * count + i] = std::min(float(lengths[i] / double(depths[i])), most_w);
     }
     return samples;
 }

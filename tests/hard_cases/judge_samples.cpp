@@ -9,7 +9,7 @@ namespace {
 
 double stored_w(const ImageView& depth, TexelIndex at, Vec3d g) {
     const double d = double(decode_depth(depth.format, depth.at(at.x, at.y)));
-    return d > 0 ? double(std::min(float(length(g) / d), 5e29F)) : 0;
+    return d > 0 ? double(std::min(float(length(g) / d), 1e9F)) : 0;
 }
 
 Vec3d stored_normal(const ImageView& normal, const Grid& grid, TexelIndex at) {

@@ -10,9 +10,9 @@
 //   nothing earlier, or they are nowhere all in the solid before it; and one has a hit there, or the point
 //   lies on a face by which the ray enters or leaves, or t lies between their hits and on the boundary of the
 //   solid.
-//   If those rays meet the solid differently often, or first something else, the ray runs within 1e-5 R of edges all along, and
-//   rounding may take it to one side here and to the other there: a hit on the boundary is "bent", and so is
-//   a miss where hits are culled or walls open.
+//   If those rays meet the solid differently often, or first something else, the ray runs within 1e-5 R of
+//   edges all along, and rounding may take it to one side here and to the other there: a hit on the boundary
+//   is "bent", and so is a miss where hits are culled or walls open.
 // Rays that pass the centre at less than the largest W's distance, where the core is 64 times smaller than
 // that, lose digits: their bound grows by 4 eps W_core R, and it is enough that their hits are on the
 // boundary. Whatever is excused is counted, hits on the other face of an edge apart from the rest.
