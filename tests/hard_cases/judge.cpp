@@ -406,9 +406,21 @@ bool Judge::solid(Vec3d point) const {
     return any_near(point, touching, [&](const Piece& piece) { return depth_in(piece, point) >= 0; });
 }
 
+template <class Visit>
+bool Judge::any_face(Vec3d point, double reach, const Visit& visit) const {
+    return any_near(point, reach, [&](const Piece& piece) {
+        if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
+        return std::any_of(piece.halves.begin(), piece.halves.begin() + piece.count,
+                           [&](const HalfSpace& half) {
+                               const double size = length(half.plane);
+                               return std::abs(dot(half.plane, point) - half.offset) <= reach * size &&
+                                      visit(half, size) && !solid(point - half.plane * (2 * reach / size));
+                           });
+    });
+}
+
 bool Judge::near_boundary(Vec3d point, double reach) const {
-    return any_near(point, reach,
-                    [&](const Piece& piece) { return std::abs(depth_in(piece, point)) <= reach; });
+    return any_face(point, reach, [](const HalfSpace& half, double) { return !half.open; });
 }
 
 bool Judge::near_face(Vec3d point, double reach, const Event& face, bool any_layer) const {
@@ -425,16 +437,10 @@ bool Judge::near_face(Vec3d point, double reach, const Event& face, bool any_lay
 }
 
 bool Judge::near_passage(Vec3d point, double reach, Vec3d direction, bool enters) const {
-    return any_near(point, reach, [&](const Piece& piece) {
-        if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
-        return std::any_of(
-            piece.halves.begin(), piece.halves.begin() + piece.count, [&](const HalfSpace& half) {
-                const double size = length(half.plane);
-                return std::abs(dot(half.plane, point) - half.offset) <= reach * size &&
-                       ((dot(half.plane, direction) > 0) == enters ||
-                        std::abs(dot(half.plane, direction)) < grazing * size * length(direction)) &&
-                       !solid(point - half.plane * (2 * reach / size));
-            });
+    return any_face(point, reach, [&](const HalfSpace& half, double size) {
+        const double towards = dot(half.plane, direction);
+        return !half.open &&
+               ((towards > 0) == enters || std::abs(towards) < grazing * size * length(direction));
     });
 }
 

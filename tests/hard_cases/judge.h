@@ -53,7 +53,7 @@ public:
     // How far rounding may move hits of a ray that passes next to the centre, in units of R; 0: it does not.
     [[nodiscard]] double digits_lost(const RayD& ray) const;
     [[nodiscard]] bool solid(Vec3d point) const;
-    // Whether the boundary of a piece of solid passes the point at no more than `reach`.
+    // Whether the point is no farther than `reach` from the boundary of the solid, open walls left out.
     [[nodiscard]] bool near_boundary(Vec3d point, double reach) const;
     // Whether the point is that near to a face of this kind.
     [[nodiscard]] bool near_face(Vec3d point, double reach, const Event& face, bool any_layer) const;
@@ -103,6 +103,10 @@ private:
     // one of the calls gave true.
     template <class Visit>
     bool any_near(Vec3d point, double reach, const Visit& visit) const;
+    // Calls `visit` with the planes of pieces that the point is no farther than `reach` from and that part
+    // solid from what is none; true: one of the calls gave true.
+    template <class Visit>
+    bool any_face(Vec3d point, double reach, const Visit& visit) const;
     // How far inside a point is; below 0: outside.
     static double depth_in(const Piece& piece, Vec3d point);
     void note_core(bool solid) { (solid ? some_solid_ : some_empty_) = true; }
