@@ -124,7 +124,8 @@ inline void find_chords(const shader::SpaMap& map, const Ray* rays, std::size_t 
             t1, hn::Mul(hn::Add(hn::Sub(t1, t0), hn::Abs(hn::Add(foot_t, t1))), hn::Set(df, SPA_LONGER)));
         t0 = hn::Max(t0, enters);
         t1 = hn::Min(t1, leaves);
-        const MF real = hn::RebindMask(df, hn::FirstN(du, count - first));
+        // Not every target's Min and Max hand on the NaN of a limit.
+        const MF real = hn::And(hn::RebindMask(df, hn::FirstN(du, count - first)), hn::Le(ray_min, ray_max));
         const MF meets = hn::And(real, hn::And(hn::And(hn::Ge(inside, zero), chord), hn::Lt(t0, t1)));
         const std::size_t more = hn::CountTrue(df, meets);
         if (more == 0) continue;
