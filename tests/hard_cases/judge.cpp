@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "judge.h"
 
+#include "judge_geometry.h"
 #include "judge_samples.h"
 
 #include <algorithm>
@@ -16,13 +17,6 @@ constexpr double overlap = 1e-12;
 // Spans of solid that are closer to each other touch.
 constexpr double touching = 1e-9;
 
-// A direction this near to a plane may go to either side of it.
-constexpr double grazing = 1e-5;
-
-Vec3d octant_signs(unsigned octant) {
-    return {octant & 1U ? -1.0 : 1.0, octant & 2U ? -1.0 : 1.0, octant & 4U ? -1.0 : 1.0};
-}
-
 // Leaves of [lo, hi] what has a + s * b >= 0.
 void clip(double a, double b, double& lo, double& hi) {
     if (b > 0)
@@ -31,18 +25,6 @@ void clip(double a, double b, double& lo, double& hi) {
         hi = std::min(hi, -a / b);
     else if (a < 0)
         hi = -infinity;
-}
-
-// The cells of a row of n that a coordinate moving from x to y, in [0, 1] but for rounding, may touch.
-struct Range {
-    std::uint32_t first = 0, last = 0;
-};
-Range cells_between(double x, double y, std::uint32_t n) {
-    const auto cell = [n](double v) {
-        return std::uint32_t(std::clamp(std::floor(v * n), 0.0, double(n) - 1));
-    };
-    constexpr double margin = 1e-6;
-    return {cell(std::min(x, y) - margin), cell(std::max(x, y) + margin)};
 }
 
 } // namespace
@@ -236,7 +218,7 @@ void Judge::clip_octant(unsigned octant, Vec3d o, Vec3d d, double lo, double hi,
     const auto cells = [&](double c, double ec, double from, double to) {
         const double l0 = ol + from * el;
         const double l1 = ol + to * el;
-        if (!(std::min(l0, l1) > 1e-3)) return Range{0, n_ - 1};
+        if (!(std::min(l0, l1) > 1e-3)) return CellRange{0, n_ - 1};
         return cells_between((c + from * ec) / l0, (c + to * ec) / l1, n_);
     };
     const auto strip = [&](double c, double ec, std::uint32_t cell, double& from, double& to) {
@@ -247,12 +229,12 @@ void Judge::clip_octant(unsigned octant, Vec3d o, Vec3d d, double lo, double hi,
         return from <= to;
     };
     const Vec3d back_o{o.x * s.x, o.y * s.y, o.z * s.z};
-    const Range rows = cells(o.x, e.x, lo, hi);
+    const CellRange rows = cells(o.x, e.x, lo, hi);
     for (std::uint32_t i = rows.first; i <= rows.last; ++i) {
         double row_lo = lo;
         double row_hi = hi;
         if (!strip(o.x, e.x, i, row_lo, row_hi)) continue;
-        const Range columns = cells(o.y, e.y, row_lo, row_hi);
+        const CellRange columns = cells(o.y, e.y, row_lo, row_hi);
         for (std::uint32_t j = columns.first; j <= columns.last; ++j) {
             const std::size_t b = bin(octant, i, j);
             if (first_[b] == first_[b + 1]) continue;
@@ -369,99 +351,6 @@ double Judge::digits_lost(const RayD& ray) const {
     const double foot = std::max(-dot(ray.origin, d), ray.t_min * length(ray.direction));
     const double distance = length(ray.origin + d * foot);
     return distance * w_max_ < 1 ? 4 * double(std::numeric_limits<float>::epsilon()) * w_core_ : 0;
-}
-
-double Judge::depth_in(const Piece& piece, Vec3d point) {
-    double depth = infinity;
-    for (unsigned k = 0; k < piece.count; ++k) {
-        const HalfSpace& half = piece.halves[k];
-        depth = std::min(depth, (dot(half.plane, point) - half.offset) / length(half.plane));
-    }
-    return depth;
-}
-
-template <class Visit>
-bool Judge::any_near(Vec3d point, double reach, const Visit& visit) const {
-    for (unsigned octant = 0; octant < 8; ++octant) {
-        const Vec3d s = octant_signs(octant);
-        const Vec3d p{point.x * s.x, point.y * s.y, point.z * s.z};
-        if (std::min({p.x, p.y, p.z}) < -reach) continue;
-        const double l = p.x + p.y + p.z;
-        Range rows{0, n_ - 1};
-        Range columns = rows;
-        if (l > 100 * reach) {
-            const double wide = 4 * reach / l;
-            rows = cells_between(p.x / l - wide, p.x / l + wide, n_);
-            columns = cells_between(p.y / l - wide, p.y / l + wide, n_);
-        }
-        for (std::uint32_t i = rows.first; i <= rows.last; ++i)
-            for (std::uint32_t j = columns.first; j <= columns.last; ++j)
-                for (std::uint32_t k = first_[bin(octant, i, j)]; k < first_[bin(octant, i, j) + 1]; ++k)
-                    if (visit(pieces_[k])) return true;
-    }
-    return false;
-}
-
-bool Judge::solid(Vec3d point) const {
-    return any_near(point, touching, [&](const Piece& piece) { return depth_in(piece, point) >= 0; });
-}
-
-template <class Visit>
-bool Judge::any_face(Vec3d point, double reach, const Visit& visit) const {
-    return any_near(point, reach, [&](const Piece& piece) {
-        if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
-        return std::any_of(piece.halves.begin(), piece.halves.begin() + piece.count,
-                           [&](const HalfSpace& half) {
-                               const double size = length(half.plane);
-                               return std::abs(dot(half.plane, point) - half.offset) <= reach * size &&
-                                      visit(half, size) && !solid(point - half.plane * (2 * reach / size));
-                           });
-    });
-}
-
-bool Judge::near_boundary(Vec3d point, double reach) const {
-    return any_face(point, reach, [](const HalfSpace& half, double) { return !half.open; });
-}
-
-bool Judge::near_face(Vec3d point, double reach, const Event& face, bool any_layer) const {
-    return any_near(point, reach, [&](const Piece& piece) {
-        if (piece.layer != face.layer && !any_layer) return false;
-        if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
-        return std::any_of(
-            piece.halves.begin(), piece.halves.begin() + piece.count, [&](const HalfSpace& half) {
-                const double size = length(half.plane);
-                return half.side == face.side && dot(half.plane, face.normal) < -(1 - 1e-4) * size &&
-                       std::abs(dot(half.plane, point) - half.offset) <= reach * size;
-            });
-    });
-}
-
-bool Judge::near_passage(Vec3d point, double reach, Vec3d direction, bool enters) const {
-    return any_face(point, reach, [&](const HalfSpace& half, double size) {
-        const double towards = dot(half.plane, direction);
-        return !half.open &&
-               ((towards > 0) == enters || std::abs(towards) < grazing * size * length(direction));
-    });
-}
-
-std::vector<Vec3d> Judge::points_inside(Vec3d point, double reach) const {
-    constexpr double deep = 1e-8;
-    std::vector<Vec3d> points;
-    any_near(point, reach, [&](const Piece& piece) {
-        if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
-        Vec3d inside = point;
-        for (int i = 0; i < 20; ++i) {
-            for (unsigned k = 0; k < piece.count; ++k) {
-                const HalfSpace& half = piece.halves[k];
-                const double size = length(half.plane);
-                const double missing = deep - (dot(half.plane, inside) - half.offset) / size;
-                if (missing > 0) inside = inside + half.plane * (missing / size);
-            }
-        }
-        if (length(inside - point) <= reach) points.push_back(inside);
-        return false;
-    });
-    return points;
 }
 
 } // namespace spa::test
