@@ -42,12 +42,49 @@ HWY_INLINE VU gather(const std::uint32_t* words, VU index) {
     return hn::GatherIndex(du, words, hn::BitCast(di, index));
 }
 
-// The lanes of `keep`, one behind the other, at `to`; what follows them there is overwritten up to a whole
+// Packs the lanes of a mask, one behind the other. What follows them in memory is overwritten up to a whole
 // vector.
-template <class V, class M, class T>
-HWY_INLINE void append(V values, M keep, T* to) {
-    hn::StoreU(hn::Compress(values, keep), hn::DFromV<V>(), to);
-}
+class Packer {
+public:
+#if HWY_TARGET == HWY_AVX3
+    HWY_INLINE explicit Packer(MU mask) : mask_(mask) {}
+
+    HWY_INLINE void operator()(VF values, float* to) const {
+        hn::StoreU(hn::Compress(values, hn::RebindMask(df, mask_)), df, to);
+    }
+    HWY_INLINE void operator()(VU values, std::uint32_t* to) const {
+        hn::StoreU(hn::Compress(values, mask_), du, to);
+    }
+
+private:
+    MU mask_;
+#else
+    // Not Highway's Compress: GCC copies its table of permutations at every call (Highway 1.0.3).
+    HWY_INLINE explicit Packer(MU mask) : sources_(sources(mask)) {}
+
+    HWY_INLINE void operator()(VF values, float* to) const {
+        hn::StoreU(hn::TableLookupLanes(values, hn::IndicesFromVec(df, sources_)), df, to);
+    }
+    HWY_INLINE void operator()(VU values, std::uint32_t* to) const {
+        hn::StoreU(hn::TableLookupLanes(values, hn::IndicesFromVec(du, sources_)), du, to);
+    }
+
+private:
+    static HWY_INLINE VI sources(MU mask) {
+        HWY_ALIGN std::uint32_t wanted[hn::MaxLanes(du)];
+        HWY_ALIGN std::int32_t lanes[hn::MaxLanes(du) + 1] = {};
+        hn::Store(hn::VecFromMask(du, mask), du, wanted);
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < hn::Lanes(du); ++i) {
+            lanes[count] = std::int32_t(i);
+            count += wanted[i] & 1U;
+        }
+        return hn::Load(di, lanes);
+    }
+
+    VI sources_;
+#endif
+};
 
 } // namespace spa::trace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -17,27 +17,52 @@
 HWY_BEFORE_NAMESPACE();
 namespace spa::trace::HWY_NAMESPACE {
 
-// Lane i of `mask`, the k-th of them, becomes from[k]; other lanes keep `old`.
+// Spreads words over the lanes of a mask: lane i, the k-th of them, becomes from[k]; other lanes keep `old`.
+class Expander {
+public:
 #if HWY_TARGET == HWY_AVX3
-HWY_INLINE VF expand(VF old, MU mask, const float* from) {
-    return VF{_mm512_mask_expandloadu_ps(old.raw, mask.raw, from)};
-}
-HWY_INLINE VU expand(VU old, MU mask, const std::uint32_t* from) {
-    return VU{_mm512_mask_expandloadu_epi32(old.raw, mask.raw, from)};
-}
+    HWY_INLINE explicit Expander(MU mask) : mask_(mask) {}
+
+    [[nodiscard]] HWY_INLINE VF operator()(VF old, const float* from) const {
+        return VF{_mm512_mask_expandloadu_ps(old.raw, mask_.raw, from)};
+    }
+    [[nodiscard]] HWY_INLINE VU operator()(VU old, const std::uint32_t* from) const {
+        return VU{_mm512_mask_expandloadu_epi32(old.raw, mask_.raw, from)};
+    }
+
+private:
+    MU mask_;
 #else
-template <class V, class T>
-HWY_INLINE V expand(V old, MU mask, const T* from) {
-    const hn::DFromV<V> d;
-    HWY_ALIGN std::uint32_t wanted[hn::MaxLanes(du)];
-    HWY_ALIGN T lanes[hn::MaxLanes(du)];
-    hn::Store(hn::VecFromMask(du, mask), du, wanted);
-    hn::Store(old, d, lanes);
-    for (std::size_t i = 0; i < hn::Lanes(du); ++i)
-        if (wanted[i] != 0) lanes[i] = *from++;
-    return hn::Load(d, lanes);
-}
+    HWY_INLINE explicit Expander(MU mask) : mask_(mask), ranks_(ranks(mask)) {}
+
+    [[nodiscard]] HWY_INLINE VF operator()(VF old, const float* from) const {
+        const VF spread = hn::TableLookupLanes(hn::LoadU(df, from), hn::IndicesFromVec(df, ranks_));
+        return hn::IfThenElse(hn::RebindMask(df, mask_), spread, old);
+    }
+    [[nodiscard]] HWY_INLINE VU operator()(VU old, const std::uint32_t* from) const {
+        const VU spread = hn::TableLookupLanes(hn::LoadU(du, from), hn::IndicesFromVec(du, ranks_));
+        return hn::IfThenElse(mask_, spread, old);
+    }
+
+private:
+    // How many lanes of the mask are before each lane.
+    static HWY_INLINE VI ranks(MU mask) {
+        HWY_ALIGN std::uint32_t wanted[hn::MaxLanes(du)];
+        HWY_ALIGN std::int32_t before[hn::MaxLanes(du)];
+        hn::Store(hn::VecFromMask(du, mask), du, wanted);
+        std::int32_t count = 0;
+        for (std::size_t i = 0; i < hn::Lanes(du); ++i) {
+            before[i] = count;
+            count += wanted[i] != 0 ? 1 : 0;
+        }
+        // Those behind the last one of the mask are not used.
+        return hn::Min(hn::Load(di, before), hn::Set(di, std::int32_t(hn::Lanes(du)) - 1));
+    }
+
+    MU mask_;
+    VI ranks_;
 #endif
+};
 
 // What all lanes share.
 struct WalkConstants {
@@ -97,20 +122,21 @@ HWY_INLINE WalkLanes no_jobs() {
 HWY_INLINE void refill(const WalkConstants& constants, const StretchBlock& jobs, std::size_t& next,
                        WalkLanes& lanes) {
     const MU fresh = hn::Not(lanes.alive);
+    const Expander expand(fresh);
     StretchLanes& stretch = lanes.stretch;
-    stretch.x0 = expand(stretch.x0, fresh, jobs.x0 + next);
-    stretch.y0 = expand(stretch.y0, fresh, jobs.y0 + next);
-    stretch.w0 = expand(stretch.w0, fresh, jobs.w0 + next);
-    stretch.dx = expand(stretch.dx, fresh, jobs.dx + next);
-    stretch.dy = expand(stretch.dy, fresh, jobs.dy + next);
-    stretch.dw = expand(stretch.dw, fresh, jobs.dw + next);
-    stretch.flip_x = expand(stretch.flip_x, fresh, jobs.flip_x + next);
-    stretch.flip_y = expand(stretch.flip_y, fresh, jobs.flip_y + next);
-    lanes.per_x = expand(lanes.per_x, fresh, jobs.per_x + next);
-    lanes.per_y = expand(lanes.per_y, fresh, jobs.per_y + next);
-    lanes.x = expand(lanes.x, fresh, jobs.x + next);
-    lanes.y = expand(lanes.y, fresh, jobs.y + next);
-    lanes.job = expand(lanes.job, fresh, jobs.number + next);
+    stretch.x0 = expand(stretch.x0, jobs.x0 + next);
+    stretch.y0 = expand(stretch.y0, jobs.y0 + next);
+    stretch.w0 = expand(stretch.w0, jobs.w0 + next);
+    stretch.dx = expand(stretch.dx, jobs.dx + next);
+    stretch.dy = expand(stretch.dy, jobs.dy + next);
+    stretch.dw = expand(stretch.dw, jobs.dw + next);
+    stretch.flip_x = expand(stretch.flip_x, jobs.flip_x + next);
+    stretch.flip_y = expand(stretch.flip_y, jobs.flip_y + next);
+    lanes.per_x = expand(lanes.per_x, jobs.per_x + next);
+    lanes.per_y = expand(lanes.per_y, jobs.per_y + next);
+    lanes.x = expand(lanes.x, jobs.x + next);
+    lanes.y = expand(lanes.y, jobs.y + next);
+    lanes.job = expand(lanes.job, jobs.number + next);
     lanes.s = hn::IfThenZeroElse(hn::RebindMask(df, fresh), lanes.s);
     // Behind the last job there is nothing; such lanes stay free.
     const MU real =
@@ -119,7 +145,7 @@ HWY_INLINE void refill(const WalkConstants& constants, const StretchBlock& jobs,
     lanes.waits = hn::AndNot(fresh, lanes.waits);
     lanes.level = hn::IfThenElse(fresh, constants.start, lanes.level);
     if (jobs.any_state) {
-        const VU state = expand(hn::Zero(du), fresh, jobs.state + next);
+        const VU state = expand(hn::Zero(du), jobs.state + next);
         const auto begins = [&](std::uint32_t as) {
             return hn::And(hn::And(fresh, real), hn::Eq(state, hn::Set(du, as)));
         };
@@ -275,23 +301,23 @@ HWY_INLINE MU cross(const shader::SpaMap& map, const WalkConstants& constants, c
     }
     lanes.unknown = hn::AndNot(lanes.waits, lanes.unknown);
     if (hn::AllFalse(du, found)) return found;
-    const MF found_f = hn::RebindMask(df, found);
+    const Packer pack(found);
     const std::size_t n = results.count;
-    append(lanes.job, found, results.job + n);
-    append(kind, found, results.found + n);
-    append(lanes.x, found, results.x + n);
-    append(lanes.y, found, results.y + n);
-    append(lanes.s, found_f, results.s0 + n);
-    append(s1, found_f, results.s1 + n);
+    pack(lanes.job, results.job + n);
+    pack(kind, results.found + n);
+    pack(lanes.x, results.x + n);
+    pack(lanes.y, results.y + n);
+    pack(lanes.s, results.s0 + n);
+    pack(s1, results.s1 + n);
     const StretchLanes& stretch = lanes.stretch;
-    append(stretch.x0, found_f, results.x0 + n);
-    append(stretch.y0, found_f, results.y0 + n);
-    append(stretch.w0, found_f, results.w0 + n);
-    append(stretch.dx, found_f, results.dx + n);
-    append(stretch.dy, found_f, results.dy + n);
-    append(stretch.dw, found_f, results.dw + n);
-    append(stretch.flip_x, found, results.flip_x + n);
-    append(stretch.flip_y, found, results.flip_y + n);
+    pack(stretch.x0, results.x0 + n);
+    pack(stretch.y0, results.y0 + n);
+    pack(stretch.w0, results.w0 + n);
+    pack(stretch.dx, results.dx + n);
+    pack(stretch.dy, results.dy + n);
+    pack(stretch.dw, results.dw + n);
+    pack(stretch.flip_x, results.flip_x + n);
+    pack(stretch.flip_y, results.flip_y + n);
     results.count = n + hn::CountTrue(du, found);
     return found;
 }
