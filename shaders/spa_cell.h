@@ -25,11 +25,15 @@ SPA_BEGIN
 
 // Regions of a mixed triangle overlap by this many cells, so that no ray passes between them.
 #define SPA_OVERLAP 2e-6f
+// Walls of regions that are this near to where a ray leaves a triangle, in cells, are what it leaves by.
+#define SPA_PASSED 2e-5f
 // Steps lower than this, relative to w, are rounding and no walls.
 #define SPA_STEP 1e-5f
 // Rounding at the borders of triangles must not make a ray that enters the solid leave and enter again, nor
 // one that leaves enter and leave again: this much of w is no reason to.
 #define SPA_SLACK 4e-6f
+// What rounding along the piece may add, relative to its greater w.
+#define SPA_ROUNDING 2.4e-7f
 // So much deeper, relative to w, inner ends are for rays that come from outside: they do not slip through
 // what has no thickness. Less than the slack, or they would leave at once.
 #define SPA_THICKER 1e-6f
@@ -220,12 +224,13 @@ SPA_FUNCTION SpaClip spa_clip_prism(SPA_IN(SpaMap) map, SPA_IN(SpaPrism) prism, 
     clip.by0 = SPA_BY_EDGE;
     clip.by1 = SPA_BY_EDGE;
     float w = min(piece.w0, piece.w1);
+    float give = slack > 0.0f ? slack * w + SPA_ROUNDING * max(piece.w0, piece.w1) : 0.0f;
     spa_clip(clip, piece, piece.w0 - spa_at(prism.outer, piece.u0, piece.v0),
-             piece.w1 - spa_at(prism.outer, piece.u1, piece.v1), slack * w, SPA_BY_OUTER);
+             piece.w1 - spa_at(prism.outer, piece.u1, piece.v1), give, SPA_BY_OUTER);
     if (clip.s1 < clip.s0) return clip;
     if (prism.inner.c < SPA_FAR)
         spa_clip(clip, piece, spa_at(prism.inner, piece.u0, piece.v0) - (piece.w0 - thicker * w),
-                 spa_at(prism.inner, piece.u1, piece.v1) - (piece.w1 - thicker * w), slack * w, SPA_BY_INNER);
+                 spa_at(prism.inner, piece.u1, piece.v1) - (piece.w1 - thicker * w), give, SPA_BY_INNER);
     for (uint n = 0u; n < prism.half_planes; n += 1u) {
         SpaPlane plane = spa_load_plane(map, prism.first + 3u * n);
         spa_clip(clip, piece, spa_at(plane, piece.u0, piece.v0) + SPA_OVERLAP,
@@ -312,6 +317,27 @@ SPA_FUNCTION bool spa_touches(SPA_IN(SpaMap) map, SPA_IN(SpaPrism) prism, SPA_IN
     return touches;
 }
 
+// The half-plane, as SPA_BY_..., that the ray at sigma s has passed by no more than rounding at a triangle's
+// border may hide, if it is between the prism's ends and not beyond another; else SPA_BY_EDGE.
+SPA_FUNCTION uint spa_passed_wall(SPA_IN(SpaMap) map, SPA_IN(SpaPrism) prism, SPA_IN(SpaPiece) piece,
+                                  float s) {
+    float f = piece.s1 > piece.s0 ? (s - piece.s0) / (piece.s1 - piece.s0) : 0.0f;
+    float u = piece.u0 + f * (piece.u1 - piece.u0);
+    float v = piece.v0 + f * (piece.v1 - piece.v0);
+    float w = piece.w0 + f * (piece.w1 - piece.w0);
+    uint wall = SPA_BY_EDGE;
+    float least = 0.0f;
+    for (uint n = 0u; n < prism.half_planes; n += 1u) {
+        float beyond = spa_at(spa_load_plane(map, prism.first + 3u * n), u, v);
+        if (beyond < least) {
+            least = beyond;
+            wall = SPA_BY_HALF_PLANE + n;
+        }
+    }
+    bool near = least >= -SPA_PASSED && w >= spa_at(prism.outer, u, v) && w <= spa_at(prism.inner, u, v);
+    return near ? wall : SPA_BY_EDGE;
+}
+
 // Whether the piece begins in the prism, but by rounding: it leaves it by an end that it is at.
 SPA_FUNCTION bool spa_leaves(SPA_IN(SpaPrism) prism, SPA_IN(SpaPiece) piece, SPA_IN(SpaClip) clip) {
     if (clip.by0 != SPA_BY_EDGE || clip.s1 >= piece.s1) return false;
@@ -378,12 +404,17 @@ SPA_FUNCTION bool spa_cross(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, SPA_IN(
                 }
             }
             if (s >= piece.s1) return false;
-            // An end at which the ray is may just have been missed.
+            // An end or a wall at which the ray is may just have been missed.
             for (uint k = 0u; k < count && by == SPA_BY_EDGE; k += 1u) {
                 SpaPrism prism = spa_prism(map, tri, k);
-                if (spa_touches(map, prism, piece, at, SPA_STEP) &&
-                    !spa_touches(map, prism, piece, at, -SPA_STEP))
+                uint wall = spa_passed_wall(map, prism, piece, at);
+                if (wall != SPA_BY_EDGE) {
                     found = prism;
+                    by = wall;
+                } else if (spa_touches(map, prism, piece, at, SPA_STEP) &&
+                           !spa_touches(map, prism, piece, at, -SPA_STEP)) {
+                    found = prism;
+                }
             }
             state = SPA_OUTSIDE;
             event = spa_event(map, tri, found, piece, s, by, false);
