@@ -3,6 +3,7 @@
 
 #include "ray_sets.h"
 #include "ray_truth.h"
+#include "source_radius.h"
 #include "star_map.h"
 
 #include "../bake/arena.h"
@@ -15,27 +16,13 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 namespace spa::measure {
 namespace {
 
 constexpr std::uint64_t seed = 20240502;
-
-double largest_radius(const Model& model, Vec3d center, const Mat3& to_frame) {
-    double radius = 0;
-    for (const Triangle& triangle : model.triangles) {
-        for (const std::uint32_t v : triangle.vertex)
-            radius = std::max(radius, length(to_frame * (to_double(model.positions[v]) - center)));
-    }
-    if (!(radius > 0) || !std::isfinite(radius))
-        throw Error(ExitCode::invalid_data,
-                    "the source model has no extent: there is nothing to measure against");
-    return radius * (1 + 1e-7); // as make_part_frame rounds it
-}
 
 std::vector<trace::Ray> secondary_rays(std::uint32_t count, const bake::CenteredModel& model) {
     constexpr std::array sets{RaySet::bounce, RaySet::chords, RaySet::leaving};
@@ -81,7 +68,7 @@ public:
         : model_(model), part_(part), options_(options), progress_(progress) {}
 
     RayFigures run() {
-        const double radius = largest_radius(model_, part_.center, Mat3{});
+        const double radius = radius_about(model_, part_.center, Mat3{});
         const bake::CenteredModel centered = bake::center_model(model_, {part_.center, Mat3{}, radius});
         const trace::TriangleScene triangles(centered.positions, model_.triangles);
         const RayTruth judge(centered, triangles);
@@ -91,8 +78,7 @@ public:
         step(0.2);
         const double cells = double(part_.layers.front().outer.depth.width) - 1;
         RayFigures figures;
-        figures.band_width =
-            2 * (2 / cells) * part_.radius / largest_radius(model_, part_.center, inverse(part_.frame));
+        figures.band_width = 2 * (2 / cells) * part_.radius / radius_about(model_, part_.center, part_.frame);
         const auto band = judge.silhouette_band(rays, truth, float(figures.band_width));
         step(0.5);
 
@@ -124,7 +110,7 @@ private:
             extra.push_back(answers[i].hits());
         }
         if (wrong.empty()) return;
-        const double radius = largest_radius(model_, part_.center, inverse(part_.frame));
+        const double radius = radius_about(model_, part_.center, part_.frame);
         const bake::OwnedMap star =
             star_map(model_, part_, radius, options_.layers, options_.star_cells, options_.threads,
                      [this](double share) { return !progress_ || progress_(0.6 + 0.4 * share); });

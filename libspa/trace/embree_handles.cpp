@@ -3,6 +3,7 @@
 
 #include "../core/error.h"
 
+#include <cstring>
 #include <string>
 
 namespace spa::trace {
@@ -24,6 +25,22 @@ void check(RTCDevice device) {
     const RTCError error = rtcGetDeviceError(device);
     if (error != RTC_ERROR_NONE)
         throw Error(ExitCode::internal, std::string("Embree failed: ") + text(error));
+}
+
+void attach_triangles(RTCDevice device, RTCScene scene, std::span<const Vec3f> positions,
+                      std::span<const Triangle> triangles) {
+    const GeometryOwner geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+    // Embree's own buffers: it reads 16 bytes a vertex, four behind the end of a vector.
+    void* const vertices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0,
+                                                   RTC_FORMAT_FLOAT3, sizeof(Vec3f), positions.size());
+    void* const indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                  sizeof(Triangle), triangles.size());
+    check(device);
+    std::memcpy(vertices, positions.data(), positions.size_bytes());
+    std::memcpy(indices, triangles.data(), triangles.size_bytes());
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometry(scene, geometry.get());
+    check(device);
 }
 
 } // namespace spa::trace

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Owners of Embree's objects, and its errors as ours. Internal to this folder.
+// Owners of Embree's objects, its errors as ours, and triangles as its geometry. Internal to this folder.
 #pragma once
+
+#include "../mesh/model.h"
 
 #include <embree3/rtcore.h>
 
 #include <memory>
+#include <span>
 #include <type_traits>
 
 namespace spa::trace {
@@ -24,5 +27,9 @@ using GeometryOwner = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Releas
 
 // Throws Error{internal} if the device, or where it is null the making of one, has failed.
 void check(RTCDevice device);
+
+// Adds a copy of the triangles to a scene; nothing is built. Throws as check.
+void attach_triangles(RTCDevice device, RTCScene scene, std::span<const Vec3f> positions,
+                      std::span<const Triangle> triangles);
 
 } // namespace spa::trace

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -216,17 +215,7 @@ EmbreePeer::EmbreePeer(std::span<const Vec3f> positions, std::span<const Triangl
     if (!s.device) check(nullptr);
     rtcSetDeviceMemoryMonitorFunction(s.device.get(), count_bytes, &s.bytes);
     s.scene.reset(rtcNewScene(s.device.get()));
-    const GeometryOwner geometry(rtcNewGeometry(s.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-    void* const vertices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0,
-                                                   RTC_FORMAT_FLOAT3, sizeof(Vec3f), positions.size());
-    void* const indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                  sizeof(Triangle), triangles.size());
-    check(s.device.get());
-    std::memcpy(vertices, positions.data(), positions.size_bytes());
-    std::memcpy(indices, triangles.data(), triangles.size_bytes());
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometry(s.scene.get(), geometry.get());
-    check(s.device.get());
+    attach_triangles(s.device.get(), s.scene.get(), positions, triangles);
 }
 void EmbreePeer::build() {
     rtcJoinCommitScene(state_->scene.get());

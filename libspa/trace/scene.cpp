@@ -144,27 +144,28 @@ void Scene::occluded_in_block(std::span<const Ray> rays, std::uint32_t flags, st
     }
 }
 
-void Scene::closest_hits(std::span<const Ray> rays, std::uint32_t flags, std::span<Hit> hits) const {
+template <class Result, class Trace>
+void Scene::trace_blocks(std::span<const Ray> rays, std::span<Result> results, Trace trace_block) {
     const std::size_t blocks = (rays.size() + block_size - 1) / block_size;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks), [&](const auto& range) {
         const auto block = std::make_unique<Block>();
         for (std::size_t b = range.begin(); b < range.end(); ++b) {
             const std::size_t first = b * block_size;
             const std::size_t count = std::min(block_size, rays.size() - first);
-            closest_in_block(rays.subspan(first, count), flags, hits.subspan(first, count), *block);
+            trace_block(rays.subspan(first, count), results.subspan(first, count), *block);
         }
     });
 }
 
+void Scene::closest_hits(std::span<const Ray> rays, std::uint32_t flags, std::span<Hit> hits) const {
+    trace_blocks(rays, hits, [&](std::span<const Ray> some, std::span<Hit> theirs, Block& block) {
+        closest_in_block(some, flags, theirs, block);
+    });
+}
+
 void Scene::occluded(std::span<const Ray> rays, std::uint32_t flags, std::span<std::uint8_t> blocked) const {
-    const std::size_t blocks = (rays.size() + block_size - 1) / block_size;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks), [&](const auto& range) {
-        const auto block = std::make_unique<Block>();
-        for (std::size_t b = range.begin(); b < range.end(); ++b) {
-            const std::size_t first = b * block_size;
-            const std::size_t count = std::min(block_size, rays.size() - first);
-            occluded_in_block(rays.subspan(first, count), flags, blocked.subspan(first, count), *block);
-        }
+    trace_blocks(rays, blocked, [&](std::span<const Ray> some, std::span<std::uint8_t> theirs, Block& block) {
+        occluded_in_block(some, flags, theirs, block);
     });
 }
 

@@ -62,6 +62,8 @@ private:
     struct Block;
 
     static bool may_hit(const Instance& instance, const Ray& ray);
+    template <class Result, class Trace>
+    static void trace_blocks(std::span<const Ray> rays, std::span<Result> results, Trace trace_block);
     void closest_in_block(std::span<const Ray> rays, std::uint32_t flags, std::span<Hit> hits,
                           Block& block) const;
     void occluded_in_block(std::span<const Ray> rays, std::uint32_t flags, std::span<std::uint8_t> blocked,

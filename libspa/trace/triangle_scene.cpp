@@ -6,7 +6,6 @@
 #include "../mesh/closest_point.h"
 
 #include <cmath>
-#include <cstring>
 
 namespace spa::trace {
 namespace {
@@ -87,17 +86,7 @@ TriangleScene::TriangleScene(std::span<const Vec3f> positions, std::span<const T
     s.scene.reset(rtcNewScene(s.device.get()));
     // Without the robust flag rays leak through edges and vertices.
     rtcSetSceneFlags(s.scene.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-    const GeometryOwner geometry(rtcNewGeometry(s.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-    // Embree's own buffers: it reads 16 bytes a vertex, four behind the end of a vector.
-    void* const vertices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0,
-                                                   RTC_FORMAT_FLOAT3, sizeof(Vec3f), positions.size());
-    void* const indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                  sizeof(Triangle), triangles.size());
-    check(s.device.get());
-    std::memcpy(vertices, positions.data(), positions.size_bytes());
-    std::memcpy(indices, triangles.data(), triangles.size_bytes());
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometry(s.scene.get(), geometry.get());
+    attach_triangles(s.device.get(), s.scene.get(), positions, triangles);
     rtcJoinCommitScene(s.scene.get());
     check(s.device.get());
 }
