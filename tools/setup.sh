@@ -6,7 +6,8 @@
 set -eu
 
 # One package a line; "package:command" counts as installed wherever the command is found, because
-# Node.js often comes from elsewhere than Debian.
+# Node.js often comes from elsewhere than Debian; "package>=version" wants at least that version, from
+# bookworm-backports where the release itself has an older one.
 packages_of() {
     case $1 in
     build)
@@ -38,7 +39,7 @@ libgl1-mesa-dri
 LIST
         ;;
     test)
-        # The last five: the tracing text on the GPU, which is Mesa's software Vulkan.
+        # The last six: Vulkan and Direct3D. The device is Mesa's software one, which traces rays since 24.1.
         cat <<'LIST'
 gnuplot-nox
 libgtest-dev
@@ -48,7 +49,8 @@ python3:python3
 zstd
 glslang-tools
 libvulkan-dev
-mesa-vulkan-drivers
+mesa-vulkan-drivers>=25
+directx-headers-dev
 spirv-tools
 vulkan-validationlayers
 LIST
@@ -74,15 +76,50 @@ LIST
 # Prints those of the given entries that are not there.
 missing_of() {
     for entry in "$@"; do
-        package=${entry%%:*}
+        package=${entry%%[:>]*}
+        lowest=0
         case $entry in
         *:*) if command -v "${entry#*:}" >/dev/null 2>&1; then continue; fi ;;
+        *'>='*) lowest=${entry#*>=} ;;
         esac
-        case $(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true) in
-        installed*) ;;
-        *) printf '%s\n' "$package" ;;
+        installed=$(dpkg-query -W -f='${db:Status-Status} ${Version}' "$package" 2>/dev/null || true)
+        case $installed in
+        'installed '*) if dpkg --compare-versions "${installed#* }" ge "$lowest"; then continue; fi ;;
         esac
+        printf '%s\n' "${entry%:*}"
     done
+}
+
+# Makes bookworm-backports known to apt, from the mirror that it already uses.
+add_backports() {
+    list=/etc/apt/sources.list.d/spa-backports.list
+    [ ! -e "$list" ] || return 0
+    # shellcheck disable=SC2016 # apt-get fills it in
+    mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Codename: bookworm' 'Created-By: Packages' | head -n 1)
+    if [ -z "$mirror" ]; then
+        echo "setup.sh: apt knows no mirror of Debian 12 (bookworm), and its own version is too old" >&2
+        return 1
+    fi
+    keyring=/usr/share/keyrings/debian-archive-keyring.gpg
+    printf 'deb [signed-by=%s] %s bookworm-backports main\n' "$keyring" "$mirror" |
+        $as_root tee "$list" >/dev/null
+    run_with_retries $as_root apt-get -qq -o Acquire::Retries=3 update
+}
+
+# What to tell apt-get for an entry of missing_of.
+apt_name() {
+    case $1 in
+    *'>='*)
+        package=${1%>=*}
+        candidate=$(apt-cache policy "$package" | sed -n 's/^ *Candidate: //p')
+        if dpkg --compare-versions "$candidate" lt "${1#*>=}"; then
+            add_backports && printf '%s/bookworm-backports\n' "$package"
+        else
+            printf '%s\n' "$package"
+        fi
+        ;;
+    *) printf '%s\n' "$1" ;;
+    esac
 }
 
 run() {
@@ -134,10 +171,14 @@ fi
 # shellcheck disable=SC2086 # nothing or one word
 run_with_retries $as_root apt-get -qq -o Acquire::Retries=3 update ||
     echo "setup.sh: apt-get update failed; going on with the package lists that are there" >&2
+names=
+for entry in $missing; do
+    names="$names $(apt_name "$entry")"
+done
 # shellcheck disable=SC2086 # lists of words
 if ! run_with_retries $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Acquire::Retries=3 \
-    -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 install -y --no-install-recommends $missing; then
-    echo "setup.sh: apt-get could not install: $(printf '%s ' $missing)" >&2
+    -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 install -y --no-install-recommends $names; then
+    echo "setup.sh: apt-get could not install:$names" >&2
     echo "setup.sh: see its message above; the package lists need Debian 12 (bookworm)" >&2
     exit 1
 fi
