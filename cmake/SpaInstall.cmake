@@ -20,7 +20,7 @@ endforeach()
 install(TARGETS ${spa_exported_targets} EXPORT spaTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(EXPORT spaTargets NAMESPACE spa:: DESTINATION ${spa_package_dir} COMPONENT development)
-set(core_headers direction_map.h element_format.h error.h spherical_map.h vector.h)
+set(core_headers affine.h direction_map.h element_format.h error.h spherical_map.h vector.h)
 set(container_headers check.h format.h limits.h reader.h source.h status.h writer.h)
 list(TRANSFORM core_headers PREPEND libspa/core/)
 list(TRANSFORM container_headers PREPEND formats/container/)
