@@ -45,6 +45,10 @@ struct LoadOptions {
     // Lets rays through where the map stores little coverage: records have SPA_RECORD_COVERAGE, and the
     // geometry is not opaque, so that hits call an any-hit shader (spa.rahit).
     bool coverage = false;
+    // The box of a part is that of its sphere instead of the stored surface: for fan and march, whose nearest
+    // samples and test points reach beyond the surface between the samples. The projective trace is faster
+    // without.
+    bool whole_sphere = false;
 };
 
 struct InstanceOptions {
@@ -94,7 +98,7 @@ private:
         VkDeviceSize structure_offset = 0, structure_size = 0, scratch_offset = 0;
         AccelerationStructure structure;
     };
-    void write_images(const SphericalMap& map, const trace::CompileOptions& options);
+    void write_images(const SphericalMap& map, const LoadOptions& options);
     void create_structures();
     [[nodiscard]] VkAccelerationStructureGeometryKHR box_geometry(std::uint32_t part) const;
 
