@@ -71,6 +71,7 @@ std::uint64_t non_finite_pixels(const ImageRef& picture) {
 
 double display_value(double linear, double exposure) {
     const double value = std::clamp(linear * std::exp2(exposure), 0.0, 1.0);
+    if (value == 1) return 1; // the formula rounds
     return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
 }
 
