@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "interrupt.h"
+#include "near_names.h"
 #include "output.h"
 #include "verb.h"
 
@@ -41,28 +42,10 @@ int run_verb(const Verb& verb, const std::vector<std::string>& arguments) {
     return int(ExitCode::ok);
 }
 
-// The number of single-letter edits between two words (Levenshtein 1966), to guess what was meant.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row.back();
-}
-
 Error unknown_verb(const std::string& given) {
-    std::string message = "there is no verb '" + given + "'";
-    for (const Verb& verb : verbs())
-        if (edit_distance(given, verb.name) <= 2)
-            message += "; did you mean '" + std::string(verb.name) + "'?";
-    return {ExitCode::usage, message};
+    std::vector<std::string> names;
+    for (const Verb& verb : verbs()) names.emplace_back(verb.name);
+    return {ExitCode::usage, "there is no verb '" + given + "'" + did_you_mean(given, names)};
 }
 
 // hint: what to read about a usage error, once it is known which verb was meant.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "picture.h"
 
+#include "../libspa/core/element_format.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -48,6 +50,16 @@ Picture scale_to_fit(const Picture& picture, std::uint32_t max_width) {
     if (picture.pixels.empty()) return {};
     if (picture.width <= max_width) return enlarge(picture, std::max(1U, max_width / picture.width));
     return reduce(picture, (picture.width + max_width - 1) / max_width);
+}
+
+Picture tone_map(std::uint32_t width, std::uint32_t height, std::span<const Vec3f> pixels, double exposure) {
+    const SrgbEncoder code;
+    const auto scale = float(std::exp2(exposure));
+    Picture picture(width, height, {});
+    std::transform(pixels.begin(), pixels.end(), picture.pixels.begin(), [&](Vec3f pixel) {
+        return Rgb{code(pixel.x * scale), code(pixel.y * scale), code(pixel.z * scale)};
+    });
+    return picture;
 }
 
 Rgb viridis(double t) {

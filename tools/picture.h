@@ -2,10 +2,13 @@
 // Pictures for people: 8-bit RGB in memory, drawing, and the files that OpenImageIO writes.
 #pragma once
 
+#include "../libspa/core/vector.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -45,5 +48,18 @@ std::vector<std::byte> encode_png16(std::uint32_t width, std::uint32_t height, i
 // One channel, Y, 32-bit float.
 std::vector<std::byte> encode_exr(std::uint32_t width, std::uint32_t height, std::span<const float> samples);
 std::vector<std::byte> encode_png(const Picture& picture);
+
+// Channels side by side that one EXR file is to hold: "R", or "indirect.R" of a layer.
+struct ExrChannel {
+    std::string name;
+    std::span<const float> samples; // `stride` floats from one pixel's to the next
+    std::size_t stride = 1;
+};
+// 32-bit float, zip.
+std::vector<std::byte> encode_exr(std::uint32_t width, std::uint32_t height,
+                                  std::span<const ExrChannel> channels);
+
+// Linear light as a display shows it: times 2^exposure, clamped, sRGB. NaN is black.
+Picture tone_map(std::uint32_t width, std::uint32_t height, std::span<const Vec3f> pixels, double exposure);
 
 } // namespace spa::tools

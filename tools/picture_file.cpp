@@ -53,11 +53,23 @@ std::vector<std::byte> encode_png16(std::uint32_t width, std::uint32_t height, i
 }
 
 std::vector<std::byte> encode_exr(std::uint32_t width, std::uint32_t height, std::span<const float> samples) {
-    OIIO::ImageSpec spec = make_spec(width, height, 1, OIIO::TypeDesc::FLOAT);
-    spec.channelnames = {"Y"};
+    const ExrChannel luminance{"Y", samples};
+    return encode_exr(width, height, {&luminance, 1});
+}
+
+std::vector<std::byte> encode_exr(std::uint32_t width, std::uint32_t height,
+                                  std::span<const ExrChannel> channels) {
+    OIIO::ImageSpec spec = make_spec(width, height, int(channels.size()), OIIO::TypeDesc::FLOAT);
+    spec.channelnames.clear();
+    for (const ExrChannel& channel : channels) spec.channelnames.push_back(channel.name);
     spec.attribute("compression", "zip");
     spec.attribute("DateTime", ""); // otherwise the writer adds the present
-    return encode("exr", spec, samples.data());
+    const std::size_t pixels = std::size_t(width) * height;
+    std::vector<float> together(pixels * channels.size());
+    for (std::size_t c = 0; c < channels.size(); ++c)
+        for (std::size_t i = 0; i < pixels; ++i)
+            together[i * channels.size() + c] = channels[c].samples[i * channels[c].stride];
+    return encode("exr", spec, together.data());
 }
 
 std::vector<std::byte> encode_png(const Picture& picture) {

@@ -2,7 +2,7 @@
 #include "verb.h"
 
 #include <algorithm>
-#include <array>
+#include <vector>
 
 namespace spa::tools {
 
@@ -11,13 +11,20 @@ Verb inspect_verb();
 Verb extract_verb();
 Verb validate_verb();
 Verb compare_verb();
+#ifdef SPA_HAS_RENDER // the build has Vulkan
+Verb render_verb();
+#endif
 Verb sample_verb();
 Verb bench_verb();
 Verb help_verb();
 
 std::span<const Verb> verbs() {
-    static const std::array table{bake_verb(),    inspect_verb(), extract_verb(), validate_verb(),
-                                  compare_verb(), sample_verb(),  bench_verb(),   help_verb()};
+    static const std::vector<Verb> table{bake_verb(),     inspect_verb(), extract_verb(),
+                                         validate_verb(), compare_verb(),
+#ifdef SPA_HAS_RENDER
+                                         render_verb(),
+#endif
+                                         sample_verb(),   bench_verb(),   help_verb()};
     return table;
 }
 

@@ -59,6 +59,44 @@ ImageHeader jpeg_header(std::span<const std::byte> bytes) {
     return {};
 }
 
+std::uint32_t little_endian(std::span<const std::byte> bytes, std::size_t offset) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 4; i-- > 0;) value = value << 8U | std::to_integer<unsigned>(bytes[offset + i]);
+    return value;
+}
+
+// The end of a text that begins at `at`: where its zero is. The length of `bytes` if there is none.
+std::size_t text_end(std::span<const std::byte> bytes, std::size_t at) {
+    return static_cast<std::size_t>(
+        std::find(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end(), std::byte{0}) -
+        bytes.begin());
+}
+
+// Magic number and version, then attributes: name, type (texts that end with a zero), length, value. A zero
+// ends them. The data window is two corners, both inside.
+ImageHeader exr_header(std::span<const std::byte> bytes) {
+    constexpr std::size_t box_bytes = 16;
+    for (std::size_t at = 8; at < bytes.size() && bytes[at] != std::byte{0};) {
+        const std::size_t type = text_end(bytes, at) + 1;
+        if (type >= bytes.size()) return {};
+        const std::size_t length_at = text_end(bytes, type) + 1;
+        if (length_at >= bytes.size() || bytes.size() - length_at < 4) return {};
+        const std::uint64_t length = little_endian(bytes, length_at);
+        const std::size_t value = length_at + 4;
+        if (length > bytes.size() - value) return {};
+        if (starts_with(bytes, {"dataWindow\0box2i", 17}, at) && length == box_bytes) {
+            std::array<std::int64_t, 4> box{};
+            for (std::size_t i = 0; i < box.size(); ++i)
+                box[i] = static_cast<std::int32_t>(little_endian(bytes, value + 4 * i));
+            if (box[2] < box[0] || box[3] < box[1]) return {};
+            return {static_cast<std::uint64_t>(box[2] - box[0] + 1),
+                    static_cast<std::uint64_t>(box[3] - box[1] + 1), 0};
+        }
+        at = value + length;
+    }
+    return {};
+}
+
 } // namespace
 
 ImageKind image_kind(std::span<const std::byte> bytes) {
@@ -105,6 +143,7 @@ ImageHeader read_image_header(std::span<const std::byte> bytes) {
     switch (image_kind(bytes)) {
     case ImageKind::png: return png_header(bytes);
     case ImageKind::jpeg: return jpeg_header(bytes);
+    case ImageKind::exr: return exr_header(bytes);
     default: return {};
     }
 }

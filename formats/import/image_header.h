@@ -20,7 +20,8 @@ struct ImageHeader {
     std::uint64_t pixel_bits = 0;        // of a stored pixel; PNG only
 };
 
-// The size that a PNG or JPEG claims; width 0 for other kinds and for what holds no valid header.
+// The size that a PNG, JPEG or OpenEXR file claims (of the latter the data window of its first part); width 0
+// for other kinds and for what holds no valid header.
 ImageHeader read_image_header(std::span<const std::byte> bytes);
 
 // What is wrong with the chain of chunks of a PNG: one that claims more bytes than are left. Empty if they

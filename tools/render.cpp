@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "interrupt.h"
+#include "output.h"
+#include "progress.h"
+#include "render_pictures.h"
+#include "render_report.h"
+#include "verb.h"
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <utility>
+
+namespace spa::tools {
+
+namespace {
+
+class Stopwatch {
+public:
+    [[nodiscard]] double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// What is written, in the order of the report.
+struct Output {
+    std::filesystem::path path;
+    std::vector<std::byte> bytes;
+};
+
+std::vector<std::filesystem::path> output_paths(const RenderArguments& arguments) {
+    std::vector<std::filesystem::path> paths{arguments.output};
+    if (arguments.aovs && !arguments.writes_exr())
+        for (const char* const name : aov_names) paths.push_back(beside(arguments.output, name));
+    if (!arguments.difference.empty()) paths.push_back(arguments.difference);
+    return paths;
+}
+
+void check_outputs(const RenderArguments& arguments, const import::Report& source) {
+    std::vector<std::filesystem::path> inputs{arguments.scene};
+    for (const MapArgument& map : arguments.maps) inputs.emplace_back(map.file);
+    for (const import::SourceFile& file : source.files)
+        inputs.push_back(arguments.scene.parent_path() / file.name);
+    if (!arguments.compare.empty()) inputs.push_back(arguments.compare);
+    const std::vector<std::filesystem::path> outputs = output_paths(arguments);
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        check_output_file(outputs[i], inputs);
+        for (std::size_t j = 0; j < i; ++j)
+            if (outputs[i].lexically_normal() == outputs[j].lexically_normal())
+                throw Error(ExitCode::usage, outputs[i].string() + ": would be written twice");
+    }
+}
+
+void list_devices(const RenderArguments& arguments) {
+    const std::vector<render::DeviceEntry> devices = render::list_devices();
+    print(arguments.format == ReportFormat::json ? json_text(devices_json(devices)) : devices_text(devices));
+}
+
+import::SceneResult read_scene(const RenderArguments& arguments){
+    const SlowStep step("reading " + arguments.scene.filename().string(), arguments.quiet);
+return import::read_scene(arguments.scene);
+} // namespace
+
+void note(const std::string& text) { std::cerr << "spa: note: " << text << '\n'; }
+
+// What the scene lacks to be seen.
+render::Settings complete_scene(Scene& scene, const RenderArguments& arguments) {
+    render::Settings settings = arguments.settings;
+    settings.camera = choose_camera(scene, arguments);
+    if (scene.cameras.empty())
+        note(arguments.scene.string() + ": has no camera; it is shown as a whole, from the front");
+    if (scene.lights.empty()) {
+        scene.lights.push_back(default_sun(settings.camera));
+        note(arguments.scene.string() + ": has no light; a sun shines from above the camera's left shoulder");
+    }
+    return settings;
+}
+
+std::unique_ptr<render::DeviceScene> upload(const RenderArguments& arguments, const render::Gpu& gpu,
+                                            const Scene& scene, const std::vector<PlacedMap>& maps) {
+    const SlowStep step("building acceleration structures", arguments.quiet);
+    return std::make_unique<render::DeviceScene>(gpu, scene, placements(maps, arguments.layers),
+                                                 arguments.uses_replaced_triangles());
+}
+
+render::Frame render_with_progress(const RenderArguments& arguments, const render::Gpu& gpu,
+                                   const render::DeviceScene& scene, const render::Settings& settings,
+                                   render::FrameTimes& times) {
+    ProgressReport progress("rendering " + arguments.output.filename().string(), arguments.quiet);
+    render::Frame frame = render::render(gpu, scene, settings, &times, [&progress](double share) {
+        progress.update(share);
+        return interrupt_signal() == 0;
+    });
+    InterruptGuard::check();
+    return frame;
+}
+
+std::vector<Output> encode(const RenderArguments& arguments, const render::Frame& frame,
+                           const std::optional<ImageComparison>& comparison) {
+    std::vector<Output> outputs;
+    if (arguments.writes_exr()) {
+        outputs.push_back({arguments.output, encode_frame(frame)});
+    } else {
+        outputs.push_back({arguments.output, encode_png(tone_map(frame.width, frame.height, beauty(frame),
+                                                                 arguments.exposure))});
+        if (arguments.aovs)
+            for (const NamedPicture& aov : aov_pictures(frame, arguments.exposure))
+                outputs.push_back({beside(arguments.output, aov.name), encode_png(aov.picture)});
+    }
+    if (comparison && !arguments.difference.empty()) {
+        const std::string title =
+            arguments.output.filename().string() + " and " + arguments.compare.filename().string();
+        outputs.push_back({arguments.difference, encode_png(comparison_sheet(*comparison, title))});
+    }
+    return outputs;
+}
+
+// All of them or, unless a rename fails half way, none.
+std::vector<WrittenFile> write(const std::vector<Output>& outputs) {
+    std::vector<std::unique_ptr<StagedFile>> staged;
+    std::vector<WrittenFile> written;
+    for (const Output& output : outputs) {
+        staged.push_back(std::make_unique<StagedFile>(output.path));
+        staged.back()->write(output.bytes);
+        written.push_back({output.path.string(), output.bytes.size()});
+    }
+    InterruptGuard::check();
+    for (const std::unique_ptr<StagedFile>& file : staged) file->commit();
+    return written;
+}
+
+void judge(const std::optional<ImageComparison>& comparison, const RenderArguments& arguments) {
+    if (!comparison) return;
+    const std::vector<ImageLimit> missed = comparison->missed();
+    if (missed.empty()) return;
+    std::string message =
+        arguments.output.string() + " misses its limits against " + arguments.compare.string() + ": ";
+    for (std::size_t i = 0; i < missed.size(); ++i)
+        message += (i == 0 ? "" : "; ") + limit_sentence(*comparison, missed[i]);
+    throw Error(ExitCode::limits, message);
+}
+
+void render_scene(const RenderArguments& arguments) {
+    if (arguments.list_devices) return list_devices(arguments);
+    const Stopwatch all;
+    check_outputs(arguments, {});
+    const InterruptGuard guard;
+    const render::Gpu gpu({arguments.device,
+                           {arguments.settings.backend == render::Backend::pipeline,
+                            arguments.settings.backend == render::Backend::query},
+                           false});
+    std::optional<import::LinearPicture> reference;
+    if (!arguments.compare.empty())
+        reference = read_reference(arguments.compare, arguments.settings, arguments.fail);
+
+    const Stopwatch reading;
+    import::SceneResult source = read_scene(arguments);
+    check_outputs(arguments, source.report);
+    const std::vector<PlacedMap> maps = place_maps(source.scene, arguments);
+    const double read_seconds = reading.seconds();
+    const render::Settings settings = complete_scene(source.scene, arguments);
+    InterruptGuard::check();
+
+    const std::unique_ptr<render::DeviceScene> scene = upload(arguments, gpu, source.scene, maps);
+    InterruptGuard::check();
+    RenderFacts facts{arguments, settings, source.scene, maps, gpu.entry()};
+    const render::Frame frame = render_with_progress(arguments, gpu, *scene, settings, facts.frame_times);
+    if (reference)
+        facts.comparison =
+            compare_with(frame, *reference, arguments.compare.string(), arguments.exposure, arguments.fail);
+    facts.files = write(encode(arguments, frame, facts.comparison));
+    facts.memory = scene->memory();
+    facts.scene_times = scene->times();
+    facts.read_seconds = read_seconds;
+    facts.seconds = all.seconds();
+
+    for (const std::string& warning : source.report.warnings)
+        std::cerr << "spa: warning: " << warning << '\n';
+    print(arguments.format == ReportFormat::json ? json_text(report_json(facts)) : report_text(facts));
+    judge(facts.comparison, arguments);
+}
+
+} // namespace spa::tools
+
+Verb render_verb() {
+    return {
+        .name = "render",
+        .summary = "render a scene with maps in place of objects",
+        .description =
+            "Renders a scene on a Vulkan device that traces rays, without a window, and writes one picture. "
+            "Objects of the scene can be maps instead of triangles, for each kind of ray on its own: rays "
+            "from the camera, shadow rays to the lights, and secondary rays, which bring the light of one "
+            "diffuse bounce. As a rule the first meet triangles and the others maps, as in the paper.\n\n"
+            "Materials are diffuse with base colour, lights are those of KHR_lights_punctual. A scene "
+            "without a light gets a sun, one without a camera is shown as a whole; a note says so.\n\n"
+            "An EXR holds linear light as 32-bit floats: the picture and, as layers, direct and indirect "
+            "light, albedo, normal (in the world), depth (distance from the camera) and kind of hit (0 "
+            "nothing, 1 triangle, 2 outer end of a map's interval, 3 inner end, 4 wall). A PNG holds the "
+            "picture as a display shows it. The same scene, options and device give the same bytes.\n\n"
+            "--compare sets the picture beside a reference and prints relMSE, RMSE, PSNR and SSIM, of direct "
+            "and indirect light too if the reference has these layers. What the figures mean is in "
+            "docs/measures.md.",
+        .examples = "$ spa render corner.glb -o corner.png\n"
+                    "$ spa render corner.glb --map boot=boot.spa -o corner.exr --samples 128\n"
+                    "$ spa render corner.glb -o ref.exr --reference\n"
+                    "$ spa render corner.glb --map boot=boot.spa -o fan.exr --method fan \\\n"
+                    "      --test-rays 10 --compare ref.exr --difference fan.png \\\n"
+                    "      --fail indirect.relmse=0.01,ssim=0.98\n"
+                    "$ spa render --list-devices",
+        .see_also = "spa sample, spa bake, spa validate",
+        .define = [](CLI::App& app) -> std::function<void()> {
+            return [complete = define_render_arguments(app)] { render_scene(complete()); };
+        },
+    };
+}
+
+} // namespace spa::tools

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_input.h"
+
+#include "near_names.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace spa::tools {
+
+namespace {
+
+constexpr std::size_t most_listed = 12;
+
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+    std::vector<std::string> names;
+    for (const Named& one : all)
+        if (!one.name.empty() && std::find(names.begin(), names.end(), one.name) == names.end() &&
+            names.size() < 100000)
+            names.push_back(one.name);
+    return names;
+}
+
+// What may have been meant, or else what there is.
+std::string suggestion(const std::string& given, const std::vector<std::string>& names) {
+    const std::string near = did_you_mean(given, names);
+    if (!near.empty()) return near;
+    if (names.empty()) return "; none has a name";
+    std::string text = "; there are ";
+    for (std::size_t i = 0; i < names.size() && i < most_listed; ++i) text += (i == 0 ? "" : ", ") + names[i];
+    return names.size() > most_listed ? text + ", ..." : text;
+}
+
+bool is_below(const Scene& scene, std::uint32_t node, std::uint32_t above) {
+    for (node = scene.nodes[node].parent; node != no_index; node = scene.nodes[node].parent)
+        if (node == above) return true;
+    return false;
+}
+
+void check_apart(const Scene& scene, const std::vector<PlacedMap>& maps) {
+    for (const PlacedMap& map : maps)
+        for (const PlacedMap& other : maps)
+            for (const std::uint32_t node : map.nodes)
+                for (const std::uint32_t above : other.nodes)
+                    if (is_below(scene, node, above))
+                        throw Error(ExitCode::usage, "--map: the node '" + map.node + "' lies below '" +
+                                                         other.node +
+                                                         "', which has a map too; leave one of them out");
+}
+
+std::optional<std::size_t> number(const std::string& text) {
+    std::size_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc{} && stopped == end ? std::optional(value) : std::nullopt;
+}
+
+struct Box {
+    Vec3d low, high;
+};
+
+Box bounds(const Model& model) {
+    Box box{to_double(model.positions.front()), to_double(model.positions.front())};
+    for (const Vec3f position : model.positions) {
+        const Vec3d p = to_double(position);
+        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    }
+    return box;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> find_nodes(const Scene& scene, const std::string& scene_name,
+                                      const std::string& node) {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].name == node) found.push_back(i);
+    if (found.empty())
+        throw Error(ExitCode::usage, "--map: there is no node '" + node + "' in " + scene_name +
+                                         suggestion(node, names_of(scene.nodes)));
+    std::vector<std::uint32_t> outermost;
+    std::copy_if(found.begin(), found.end(), std::back_inserter(outermost), [&](std::uint32_t i) {
+        return std::none_of(found.begin(), found.end(),
+                            [&](std::uint32_t above) { return is_below(scene, i, above); });
+    });
+    return outermost;
+}
+
+std::vector<PlacedMap> place_maps(const Scene& scene, const RenderArguments& arguments) {
+    std::vector<PlacedMap> maps;
+    for (const MapArgument& map : arguments.maps)
+        maps.push_back({map.node, {}, find_nodes(scene, arguments.scene.string(), map.node)});
+    check_apart(scene, maps);
+    if (!arguments.uses_maps()) return {};
+    for (std::size_t i = 0; i < maps.size(); ++i) maps[i].file = open_map(arguments.maps[i].file);
+    return maps;
+}
+
+std::vector<render::MapPlacement> placements(const std::vector<PlacedMap>& maps, std::uint32_t layers) {
+    std::vector<render::MapPlacement> all;
+    for (const PlacedMap& map : maps)
+        for (const std::uint32_t node : map.nodes) all.push_back({node, &map.file.map(), layers});
+    return all;
+}
+
+Camera choose_camera(const Scene& scene, const RenderArguments& arguments) {
+    const std::vector<Camera>& cameras = scene.cameras;
+    if (!arguments.camera) {
+        if (!cameras.empty()) return cameras.front();
+        const render::Settings& settings = arguments.settings;
+        return framing_camera(scene.model, double(settings.width) / settings.height);
+    }
+    const auto named = std::find_if(cameras.begin(), cameras.end(),
+                                    [&](const Camera& camera) { return camera.name == *arguments.camera; });
+    if (named != cameras.end()) return *named;
+    const std::optional<std::size_t> index = number(*arguments.camera);
+    if (index && *index < cameras.size()) return cameras[*index];
+    throw Error(ExitCode::usage,
+                "--camera: there is no camera '" + *arguments.camera + "' in " + arguments.scene.string() +
+                    (cameras.empty() ? ", and no other" : suggestion(*arguments.camera, names_of(cameras))));
+}
+
+Camera framing_camera(const Model& model, double aspect) {
+    constexpr double margin = 1.08; // a little more than what has to be seen
+    Camera camera;
+    camera.name = "framing";
+    camera.vertical_fov = 35 * std::numbers::pi / 180;
+    const Vec3d backward = normalize(Vec3d{0.55, 0.45, 1});
+    const Vec3d right = normalize(cross(Vec3d{0, 1, 0}, backward));
+    const Vec3d up = cross(backward, right);
+    const double tan_y = std::tan(camera.vertical_fov / 2) / margin, tan_x = tan_y * aspect;
+    const Box box = bounds(model);
+    const Vec3d center = (box.low + box.high) * 0.5;
+    // Every corner of the box is to lie between the planes of the frustum.
+    double distance = 0;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const Vec3d p =
+            Vec3d{(corner & 1U) != 0 ? box.high.x : box.low.x, (corner & 2U) != 0 ? box.high.y : box.low.y,
+                  (corner & 4U) != 0 ? box.high.z : box.low.z} -
+            center;
+        const double aside = std::max(std::abs(dot(p, right)) / tan_x, std::abs(dot(p, up)) / tan_y);
+        distance = std::max(distance, dot(p, backward) + aside);
+    }
+    camera.to_world.linear = transpose({{right, up, backward}});
+    camera.to_world.translation = center + backward * distance;
+    return camera;
+}
+
+Light default_sun(const Camera& camera) {
+    Light sun;
+    sun.name = "sun";
+    sun.kind = LightKind::directional;
+    sun.direction = normalize(transform_vector(camera.to_world, Vec3d{1, -1.5, -1}));
+    const auto irradiance = float(std::numbers::pi);
+    sun.intensity = {irradiance, irradiance, irradiance};
+    return sun;
+}
+
+} // namespace spa::tools

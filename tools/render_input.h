@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `spa render` draws: the scene, and what its arguments choose in it.
+#pragma once
+
+#include "map_file.h"
+#include "render_arguments.h"
+
+#include "../formats/import/import.h"
+
+#include <string>
+#include <vector>
+
+namespace spa::tools {
+
+// One --map: its file and the nodes that it takes the place of, indices into Scene::nodes.
+struct PlacedMap {
+    std::string node;
+    MapFile file;
+    std::vector<std::uint32_t> nodes;
+};
+
+// Nodes of that name, without those below another of them: replacing a node replaces all below it. Throws
+// Error{usage} if there is none; the message says what name may have been meant. O(nodes * depth).
+std::vector<std::uint32_t> find_nodes(const Scene& scene, const std::string& scene_name,
+                                      const std::string& node);
+
+// Where each map goes. Throws Error: as find_nodes; usage if one map's node lies below another's; as
+// open_map.
+std::vector<PlacedMap> place_maps(const Scene& scene, const RenderArguments& arguments);
+
+// For the renderer; refers to `maps`.
+std::vector<render::MapPlacement> placements(const std::vector<PlacedMap>& maps, std::uint32_t layers);
+
+// The scene's camera of that name, or of that number; the first without an argument, and where there is none
+// one that shows the whole scene. Throws Error{usage} if there is none such.
+Camera choose_camera(const Scene& scene, const RenderArguments& arguments);
+
+// A camera that sees all of the model, from the front, the right and above. aspect: width / height.
+Camera framing_camera(const Model& model, double aspect);
+
+// A sun behind the camera, above its left shoulder, under which a white surface that faces it has radiance 1.
+Light default_sun(const Camera& camera);
+
+} // namespace spa::tools

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `spa render` says on standard output.
+// Schemas: ../formats/schemas/render.schema.json, render-devices.schema.json.
+#pragma once
+
+#include "render_compare.h"
+#include "render_input.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace spa::tools {
+
+struct WrittenFile {
+    std::string path;
+    std::uint64_t bytes;
+};
+
+// Everything that a report is made from. The references outlive it.
+struct RenderFacts {
+    const RenderArguments& arguments;
+    const render::Settings& settings;
+    const Scene& scene;
+    const std::vector<PlacedMap>& maps;
+    const render::DeviceEntry& device;
+    render::SceneMemory memory{};
+    render::SceneTimes scene_times{};
+    render::FrameTimes frame_times{};
+    double read_seconds = 0; // scene and maps
+    double seconds = 0;      // all
+    std::optional<ImageComparison> comparison{};
+    std::vector<WrittenFile> files{};
+};
+
+nlohmann::ordered_json report_json(const RenderFacts& facts);
+std::string report_text(const RenderFacts& facts);
+
+nlohmann::ordered_json devices_json(std::span<const render::DeviceEntry> devices);
+std::string devices_text(std::span<const render::DeviceEntry> devices);
+
+} // namespace spa::tools
