@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tables 1 to 7 of the paper on this device: boots of seven levels of subdivision, each met by every method, with
+// the error of every cell, and what it costs to have the object on the device.
+#pragma once
+
+#include "paper_methods.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace spa::tools {
+
+struct PaperCell {
+    int level = 0;
+    std::string method;
+    std::uint32_t samples = 0; // secondary rays a pixel
+    double seconds = 0;        // of the frame, on the device
+    std::uint64_t secondary_rays = 0;
+    double secondary_seconds = 0;
+    // Of the indirect light: against triangles with the same directions, which is the method's own error, and
+    // against many samples of triangles, which is what is seen.
+    double relmse_equal_seeds = 0, relmse = 0;
+};
+
+// What an object costs on the device, as triangles and as a map.
+struct PaperCosts {
+    int level = 0;
+    std::uint64_t vertices = 0, triangles = 0;
+    std::uint64_t triangle_bytes = 0, triangle_structure_bytes = 0; // attributes; acceleration structure
+    std::uint64_t map_bytes = 0, map_structure_bytes = 0;           // one layer
+    double triangle_build_seconds = 0, map_load_seconds = 0;
+    double triangle_first_frame = 0, map_first_frame = 0; // from the file to the first frame
+    std::uint64_t glb_bytes = 0, spa_bytes = 0;
+    // The simplified mesh whose mean |dt| is that of the map or better: its size, and the rate of secondary rays.
+    std::optional<std::uint64_t> lod_triangles;
+    double lod_error = 0, map_error = 0; // mean |dt|, R
+    double lod_rays_a_second = 0;
+};
+
+struct PaperTables {
+    std::uint32_t width = 0, height = 0;
+    std::vector<PaperCell> cells;
+    std::vector<PaperCosts> costs; // one a level
+
+    [[nodiscard]] const PaperCell* find(int level, const std::string& method, std::uint32_t samples) const;
+};
+
+struct PaperTableOptions {
+    std::vector<int> levels{0, 1, 2, 3, 4, 5, 6};
+    std::vector<std::uint32_t> samples{8, 32, 128, 256};
+    std::uint32_t width = 160, height = 120;
+    std::uint32_t reference_samples = 1024;
+    // On levels above this the reference of this level is used: the boots no longer differ to the eye.
+    int reference_level = 4;
+    unsigned runs = 1; // of each frame; times are the medians
+    render::Backend backend = render::Backend::query;
+    std::function<PaperScene(int level)> scene;
+    // Seconds from a file to what a renderer takes, for the object as a glTF file and as a map; the map has to
+    // live until the next call.
+    struct Files {
+        std::uint64_t glb_bytes = 0, spa_bytes = 0;
+        double read_glb = 0, read_spa = 0;
+    };
+    std::function<Files(const Model& object, const SphericalMap& map)> files;
+    std::function<bool(double share, const std::string& step)> progress; // false: cancels; may be empty
+};
+
+// Throws Error, and bake::Cancelled.
+PaperTables run_paper_tables(const render::Gpu& gpu, const PaperTableOptions& options);
+
+} // namespace spa::tools
