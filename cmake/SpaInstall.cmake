@@ -6,7 +6,7 @@
 # that the headers' own relative includes hold. What only the sources include is not installed.
 include(CMakePackageConfigHelpers)
 
-set(spa_exported_targets spa_core spa_container)
+set(spa_exported_targets spa_core spa_container spa_trace_map)
 set(spa_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/spa)
 if(TARGET spa_trace)
   set(spa_traced_targets spa_trace)
@@ -20,10 +20,14 @@ endforeach()
 install(TARGETS ${spa_exported_targets} EXPORT spaTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(EXPORT spaTargets NAMESPACE spa:: DESTINATION ${spa_package_dir} COMPONENT development)
-set(core_headers direction_map.h element_format.h error.h spherical_map.h vector.h)
+set(core_headers affine.h direction_map.h element_format.h error.h spherical_map.h vector.h)
 set(container_headers check.h format.h limits.h reader.h source.h status.h writer.h)
 list(TRANSFORM core_headers PREPEND libspa/core/)
 list(TRANSFORM container_headers PREPEND formats/container/)
+set(trace_map_headers ray.h space.h trace_map.h)
+list(TRANSFORM trace_map_headers PREPEND libspa/trace/)
+install(FILES ${trace_map_headers}
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spa/libspa/trace COMPONENT development)
 install(FILES ${core_headers}
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spa/libspa/core COMPONENT development)
 install(FILES ${container_headers}
@@ -34,7 +38,7 @@ if(TARGET spa_trace)
   install(TARGETS spa_trace EXPORT spaTraceTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
   install(EXPORT spaTraceTargets NAMESPACE spa:: DESTINATION ${spa_package_dir} COMPONENT development)
-  set(trace_headers fan.h march.h ray.h scene.h shade.h space.h trace.h trace_map.h)
+  set(trace_headers fan.h march.h scene.h shade.h trace.h)
   list(TRANSFORM trace_headers PREPEND libspa/trace/)
   install(FILES ${trace_headers}
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spa/libspa/trace COMPONENT development)

@@ -11,12 +11,14 @@ set -eu
 packages_of() {
     case $1 in
     build)
-        # Compiler and build, then libraries. The last three let EGL and OSMesa draw without a GPU.
+        # Compilers and build, then libraries. The last three let EGL and OSMesa draw without a GPU.
         cat <<'LIST'
 g++
 cmake
 ninja-build
 pkg-config
+glslang-tools
+spirv-tools
 libcli11-dev
 libdraco-dev
 libegl-dev
@@ -30,6 +32,7 @@ libopenmesh-dev
 libosmesa6-dev
 libtbb-dev
 libtinygltf-dev
+libvulkan-dev
 libxxhash-dev
 libzstd-dev
 nlohmann-json3-dev
@@ -39,7 +42,7 @@ libgl1-mesa-dri
 LIST
         ;;
     test)
-        # The last six: Vulkan and Direct3D. The device is Mesa's software one, which traces rays since 24.1.
+        # The last three: Vulkan and Direct3D. The device is Mesa's software one, which traces rays since 24.1.
         cat <<'LIST'
 gnuplot-nox
 libgtest-dev
@@ -47,11 +50,8 @@ nodejs:node
 npm:npm
 python3:python3
 zstd
-glslang-tools
-libvulkan-dev
 mesa-vulkan-drivers>=25
 directx-headers-dev
-spirv-tools
 vulkan-validationlayers
 LIST
         ;;

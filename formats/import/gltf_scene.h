@@ -2,7 +2,7 @@
 // The node hierarchy flattened: which meshes are drawn, and where.
 #pragma once
 
-#include "affine.h"
+#include "../../libspa/core/affine.h"
 #include "gltf_accessor.h"
 
 #include <vector>

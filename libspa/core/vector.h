@@ -98,6 +98,15 @@ constexpr Mat3 transpose(const Mat3& m) {
              {m.row[0].y, m.row[1].y, m.row[2].y},
              {m.row[0].z, m.row[1].z, m.row[2].z}}};
 }
+// First b, then a.
+constexpr Mat3 operator*(const Mat3& a, const Mat3& b) {
+    const Mat3 columns = transpose(b);
+    Mat3 out;
+    for (int i = 0; i < 3; ++i)
+        out.row[i] = {dot(a.row[i], columns.row[0]), dot(a.row[i], columns.row[1]),
+                      dot(a.row[i], columns.row[2])};
+    return out;
+}
 constexpr double determinant(const Mat3& m) { return dot(m.row[0], cross(m.row[1], m.row[2])); }
 // Inverse by cofactors. The caller makes sure that the determinant is not zero.
 constexpr Mat3 inverse(const Mat3& m) {

@@ -57,7 +57,7 @@ std::vector<RayAnswer> answers_of(const trace::Scene& scene, const std::vector<t
 }
 
 // From object space to that of the rays.
-trace::Affine to_unit_sphere(Vec3d center, double radius) {
+Affine to_unit_sphere(Vec3d center, double radius) {
     const double scale = 1 / radius;
     return {{{{scale, 0, 0}, {0, scale, 0}, {0, 0, scale}}}, center * -scale};
 }
@@ -82,7 +82,7 @@ public:
         const auto band = judge.silhouette_band(rays, truth, float(figures.band_width));
         step(0.5);
 
-        const trace::Affine placed = to_unit_sphere(part_.center, radius);
+        const Affine placed = to_unit_sphere(part_.center, radius);
         const trace::TraceMap map(part_);
         trace::Scene scene;
         scene.add(map, part_, placed);
@@ -100,8 +100,7 @@ private:
 
     // Which of the false answers the star envelope gives too.
     void attribute(const std::vector<trace::Ray>& rays, const std::vector<RayAnswer>& truth,
-                   const std::vector<RayAnswer>& answers, const trace::Affine& placed,
-                   RayFigures& figures) const {
+                   const std::vector<RayAnswer>& answers, const Affine& placed, RayFigures& figures) const {
         std::vector<trace::Ray> wrong;
         std::vector<bool> extra;
         for (std::size_t i = 0; i < rays.size(); ++i) {

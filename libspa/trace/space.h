@@ -6,17 +6,12 @@
 
 #include "ray.h"
 
+#include "../core/affine.h"
 #include "../core/spherical_map.h"
 
 #include <cmath>
 
 namespace spa::trace {
-
-// p -> linear * p + translation.
-struct Affine {
-    Mat3 linear;
-    Vec3d translation;
-};
 
 // Where a part's map space lies in another space: p = origin + to_world * q, q = to_map * (p - origin).
 struct MapSpace {
@@ -25,15 +20,6 @@ struct MapSpace {
     Vec3d origin;
 };
 
-constexpr Mat3 operator*(const Mat3& a, const Mat3& b) {
-    const Mat3 columns = transpose(b);
-    Mat3 result;
-    for (int i = 0; i < 3; ++i)
-        result.row[i] = {dot(a.row[i], columns.row[0]), dot(a.row[i], columns.row[1]),
-                         dot(a.row[i], columns.row[2])};
-    return result;
-}
-
 // In object space, or in the space that object_to_world leads to. object_to_world.linear has to have an
 // inverse; the part's frame has one.
 constexpr MapSpace map_space(const Part& part, const Affine& object_to_world = {}) {
@@ -41,7 +27,7 @@ constexpr MapSpace map_space(const Part& part, const Affine& object_to_world = {
     space.to_world = object_to_world.linear * part.frame;
     for (Vec3d& row : space.to_world.row) row = row * part.radius;
     space.to_map = inverse(space.to_world);
-    space.origin = object_to_world.linear * part.center + object_to_world.translation;
+    space.origin = transform_point(object_to_world, part.center);
     return space;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using namespace spa;
 using namespace spa::test;
-using trace::Affine;
+
 using trace::Hit;
 using trace::Ray;
 

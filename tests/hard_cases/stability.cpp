@@ -39,7 +39,7 @@ Vec3d random_direction(std::mt19937_64& random) {
 
 // One line: rays from `distance` (in units of R, in the map's space) at the inside of the solid.
 void measure(const char* what, double value, const Part& part, const trace::TraceMap& map, const Judge& judge,
-             const trace::Affine& place, double distance) {
+             const Affine& place, double distance) {
     trace::Scene scene;
     scene.add(map, part, place);
     const trace::MapSpace space = scene.space(0);
@@ -89,7 +89,7 @@ int main() {
         const Vec3d y = turned ? normalize(cross(x, Vec3d{0.3, -0.5, 0.8})) : Vec3d{0, 1, 0};
         for (int step = 0; step <= 6; ++step) {
             const double elongation = std::pow(10.0, 0.5 * step);
-            trace::Affine place;
+            Affine place;
             place.linear = transpose(Mat3{{x * elongation, y, cross(x, y)}});
             measure(turned ? "turned elongation" : "elongation", elongation, owned.part, map, judge, place,
                     3);

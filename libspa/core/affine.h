@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Affine maps of space in double precision: where nodes, cameras and instances stand.
+#pragma once
+
+#include "vector.h"
+
+namespace spa {
+
+// p -> linear * p + translation. The default is the identity.
+struct Affine {
+    Mat3 linear;
+    Vec3d translation;
+    friend constexpr bool operator==(const Affine&, const Affine&) = default;
+};
+
+constexpr Vec3d transform_point(const Affine& map, Vec3d point) {
+    return map.linear * point + map.translation;
+}
+// A difference of points: the translation does not count.
+constexpr Vec3d transform_vector(const Affine& map, Vec3d vector) { return map.linear * vector; }
+
+// First b, then a.
+constexpr Affine operator*(const Affine& a, const Affine& b) {
+    return {a.linear * b.linear, transform_point(a, b.translation)};
+}
+
+// The caller makes sure that the determinant of the linear part is not zero.
+constexpr Affine inverse(const Affine& map) {
+    const Mat3 linear = inverse(map.linear);
+    return {linear, -(linear * map.translation)};
+}
+
+// A multiple of the inverse transpose with the same sign: carries normals. Exists for singular maps too,
+// unlike the inverse.
+constexpr Mat3 normal_matrix(const Mat3& m) {
+    const double sign = determinant(m) < 0 ? -1.0 : 1.0;
+    return {{cross(m.row[1], m.row[2]) * sign, cross(m.row[2], m.row[0]) * sign,
+             cross(m.row[0], m.row[1]) * sign}};
+}
+
+} // namespace spa
