@@ -3,6 +3,7 @@
 #ifndef SPA_METHOD_H
 #define SPA_METHOD_H
 
+#include "spa_hit.h"
 #include "spa_trace.h"
 
 SPA_BEGIN
@@ -35,28 +36,15 @@ SPA_FUNCTION bool spa_trace(SPA_IN(SpaMap) map, SPA_IN(SpaRay) ray, SPA_IN(SpaMe
     return found;
 }
 
-// The next greater float of a finite one.
-SPA_FUNCTION float spa_next_float(float value) {
-    uint bits = spa_bits(value);
-    if (value == 0.0f) return spa_float(1u);
-    return spa_float(value > 0.0f ? bits + 1u : bits - 1u);
-}
-
-// Hits of one ray that coverage may let it pass through. Solid texels end the search; where a map holds nothing
-// but holes, it ends here.
-#define SPA_COVERAGE_LIMIT 16u
-
-// The first hit whose stored coverage is at least `coverage`, and its shade. coverage 0: the first hit. Without
-// SPA_ANY_HIT.
-SPA_FUNCTION bool spa_trace_covered(SPA_IN(SpaMap) map, SPA_IN(SpaRay) ray, SPA_IN(SpaMethod) method, uint flags,
-                                    float coverage, SPA_OUT(SpaHit) hit) {
+// The first hit of a shader record's map that is not in a hole (spa_hit.h). record_flags: without SPA_ANY_HIT.
+SPA_FUNCTION bool spa_trace_record(SPA_IN(SpaMap) map, SPA_IN(SpaRay) ray, SPA_IN(SpaMethod) method,
+                                   uint record_flags, float threshold, SPA_OUT(SpaHit) hit) {
     SpaRay rest = ray;
     hit = spa_no_hit();
-    for (uint i = 0u; i < SPA_COVERAGE_LIMIT; ++i) {
-        if (!spa_trace(map, rest, method, flags, hit)) return false;
-        if (coverage <= 0.0f) return true;
-        if (spa_shade(map, hit).coverage >= coverage) return true;
-        rest.t_min = spa_next_float(hit.t);
+    for (uint n = 0u; n < SPA_MAX_HOLES; n += 1u) {
+        if (!spa_trace(map, rest, method, record_flags & SPA_RECORD_TRACE, hit)) return false;
+        if (!spa_in_hole(map, hit, record_flags, threshold)) return true;
+        rest.t_min = spa_behind(rest, hit.t);
     }
     return false;
 }
