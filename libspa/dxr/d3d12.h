@@ -12,6 +12,10 @@
 #define WIN32_LEAN_AND_MEAN
 #endif
 #include <windows.h>
+// MinGW-w64 says that its RPC headers are older than the MIDL compiler that wrote d3d12.h; they do.
+#if defined(__MINGW32__) && !defined(__REQUIRED_RPCNDR_H_VERSION__)
+#define __REQUIRED_RPCNDR_H_VERSION__ 475
+#endif
 #else
 #include <wsl/winadapter.h>
 #endif

@@ -22,8 +22,9 @@ static_assert(sizeof(D3D12_RAYTRACING_AABB) % D3D12_RAYTRACING_AABB_BYTE_ALIGNME
 // Boxes are wider by this share of R: the surface they are made for is only met to rounding.
 constexpr float box_margin = 1e-6F;
 
-D3D12_RAYTRACING_AABB box_of(const shader::SpaMap& map) {
-    if (map.mapping != SPA_OCTAHEDRAL) return {-1, -1, -1, 1, 1, 1}; // latlong images do not say
+D3D12_RAYTRACING_AABB box_of(const shader::SpaMap& map, bool whole_sphere) {
+    // latlong images do not say where their surface is.
+    if (whole_sphere || map.mapping != SPA_OCTAHEDRAL) return {-1, -1, -1, 1, 1, 1};
     return {map.box_low.x - box_margin,  map.box_low.y - box_margin,  map.box_low.z - box_margin,
             map.box_high.x + box_margin, map.box_high.y + box_margin, map.box_high.z + box_margin};
 }
@@ -73,16 +74,15 @@ MapObject::MapObject(ID3D12Device5* device, const SphericalMap& map, const LoadO
     : coverage_(options.coverage) {
     if (map.parts.empty()) throw Error(ExitCode::usage, "there is no part to load: was the file opened?");
     require_ray_tracing(device);
-    write_images(device, map, options.compile);
+    write_images(device, map, options);
     create_structures(device);
 }
 
-void MapObject::write_images(ID3D12Device5* device, const SphericalMap& map,
-                             const trace::CompileOptions& options) {
+void MapObject::write_images(ID3D12Device5* device, const SphericalMap& map, const LoadOptions& options) {
     std::vector<trace::TraceMap> traced;
     std::uint64_t size = 0;
     for (const Part& part : map.parts) {
-        traced.emplace_back(part, options);
+        traced.emplace_back(part, options.compile);
         LoadedPart& loaded = parts_.emplace_back();
         loaded.placement = part;
         loaded.placement.layers.clear(); // views that may not outlive this call
@@ -106,7 +106,7 @@ void MapObject::write_images(ID3D12Device5* device, const SphericalMap& map,
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const std::span<const std::uint32_t> words = traced[i].words();
         std::memcpy(bytes + parts_[i].image, words.data(), words.size_bytes());
-        const D3D12_RAYTRACING_AABB box = box_of(traced[i].map());
+        const D3D12_RAYTRACING_AABB box = box_of(traced[i].map(), options.whole_sphere);
         std::memcpy(bytes + parts_[i].box, &box, sizeof box);
     }
     staging_->Unmap(0, nullptr);

@@ -57,9 +57,13 @@ static_assert(sizeof(QueryRecord) == 16);
 
 struct LoadOptions {
     trace::CompileOptions compile; // layers, and whether with colours and normals
-    // Hits call an any-hit stage (spa_any_hit), which lets rays through where the stored coverage is below
-    // the threshold. false: the geometry is opaque.
+    // Lets rays through where the map stores little coverage: records have SPA_RECORD_COVERAGE, and the
+    // geometry is not opaque, so that hits call an any-hit stage (spa_any_hit).
     bool coverage = false;
+    // The box of a part is that of its sphere instead of the stored surface: for fan and march, whose nearest
+    // samples and test points reach beyond the surface between the samples. The projective trace is faster
+    // without.
+    bool whole_sphere = false;
 };
 
 struct InstanceOptions {
@@ -114,7 +118,7 @@ private:
         std::uint64_t box = 0;                    // where in images_ its AABB is
         std::uint64_t structure = 0, scratch = 0; // where in structures_ and scratch_
     };
-    void write_images(ID3D12Device5* device, const SphericalMap& map, const trace::CompileOptions& options);
+    void write_images(ID3D12Device5* device, const SphericalMap& map, const LoadOptions& options);
     void create_structures(ID3D12Device5* device);
     [[nodiscard]] D3D12_RAYTRACING_GEOMETRY_DESC box_geometry(const LoadedPart& part) const;
     [[nodiscard]] std::uint32_t record_flags(std::uint32_t flags) const;

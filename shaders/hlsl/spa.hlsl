@@ -80,7 +80,8 @@ struct SpaAttributes {
 #if (SPA_STAGES & 1) != 0
 [shader("intersection")]
 void spa_intersection() {
-    SpaRay ray = spa_object_ray(ObjectRayOrigin(), RayTMin(), ObjectRayDirection(), RayTCurrent());
+    float reach = spa_reach(RayTCurrent());
+    SpaRay ray = spa_object_ray(ObjectRayOrigin(), RayTMin(), ObjectRayDirection(), reach);
     // Shadow rays ask for nothing but whether there is a hit.
     uint any = RAY_FLAG_ACCEPT_FIRST_HIT_AND_END_SEARCH | RAY_FLAG_SKIP_CLOSEST_HIT_SHADER;
     uint flags = spa_record.flags & SPA_RECORD_TRACE;

@@ -30,6 +30,11 @@ SpaMethod spa_chosen_method() {
     return method;
 }
 
+// The t_max to trace with, where t_max is that of the ray or of its best hit so far. Fan and march spread their points
+// over what is left of the ray: their answer must not depend on which instance was tested first. What lies beyond
+// t_max is refused.
+float spa_reach(float t_max) { return SPA_METHOD == SPA_PROJECTIVE ? t_max : 1e30f; }
+
 SpaRay spa_object_ray(float3 origin, float t_min, float3 direction, float t_max) {
     SpaRay ray;
     ray.origin = origin;

@@ -78,9 +78,10 @@ SpaQueryHit spa_query_closest(RaytracingAccelerationStructure scene, RayDesc ray
         uint4 record = SPA_QUERY_RECORD(query.CandidateInstanceID());
         SpaMap map = spa_open_record(record);
         SpaRay object_ray = spa_object_ray(query.CandidateObjectRayOrigin(), ray.TMin,
-                                           query.CandidateObjectRayDirection(), t_max);
+                                           query.CandidateObjectRayDirection(), spa_reach(t_max));
         SpaHit hit;
-        if (spa_trace_record(map, object_ray, method, record.z, SPA_THRESHOLD, hit)) {
+        bool found = spa_trace_record(map, object_ray, method, record.z, SPA_THRESHOLD, hit);
+        if (found && hit.t <= t_max) {
             query.CommitProceduralPrimitiveHit(hit.t);
             best.map_hit = hit;
         }
@@ -114,14 +115,14 @@ bool spa_query_occluded(RaytracingAccelerationStructure scene, RayDesc ray, uint
         uint4 record = SPA_QUERY_RECORD(query.CandidateInstanceID());
         SpaMap map = spa_open_record(record);
         SpaRay object_ray = spa_object_ray(query.CandidateObjectRayOrigin(), ray.TMin,
-                                           query.CandidateObjectRayDirection(), ray.TMax);
+                                           query.CandidateObjectRayDirection(), spa_reach(ray.TMax));
         SpaHit hit;
         bool found = false;
         if ((record.z & SPA_RECORD_COVERAGE) == 0u)
             found = spa_trace(map, object_ray, method, (record.z & SPA_RECORD_TRACE) | SPA_ANY_HIT, hit);
         else
             found = spa_trace_record(map, object_ray, method, record.z, SPA_THRESHOLD, hit);
-        if (found) query.CommitProceduralPrimitiveHit(hit.t);
+        if (found && hit.t <= ray.TMax) query.CommitProceduralPrimitiveHit(hit.t);
     }
     return query.CommittedStatus() != COMMITTED_NOTHING;
 }

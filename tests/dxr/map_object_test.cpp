@@ -129,6 +129,17 @@ TEST_F(DxrMapObject, BuildsOneStructureOfTheImagesBoxAPart) {
     }
 }
 
+TEST_F(DxrMapObject, TakesTheSpheresBoxIfAsked) {
+    dxr::LoadOptions options;
+    options.whole_sphere = true;
+    dxr::MapObject object(&device, baked().map, options);
+    object.record(&commands);
+    for (const auto& [address, built] : commands.structures) {
+        EXPECT_EQ(built.box.MinX, -1.0F);
+        EXPECT_EQ(built.box.MaxZ, 1.0F);
+    }
+}
+
 TEST_F(DxrMapObject, RecordsCopyBarrierBuildsBarrier) {
     dxr::MapObject object(&device, baked().map);
     EXPECT_TRUE(commands.commands.empty());
