@@ -26,18 +26,12 @@ bool has_surface(const Surface& surface, std::uint32_t x, std::uint32_t y) {
     return decode_depth(surface.depth.format, surface.depth.at(x, y)) > 0;
 }
 
-void append_table(const ImageView& image, MapImages& images) {
-    images.table.push_back(std::uint32_t(images.words.size()));
-    images.table.push_back(image.empty() ? 0 : image.width);
-    images.table.push_back(image.empty() ? 0 : image.height);
-    images.words.reserve(images.words.size() + std::size_t(image.width) * image.height);
+const Surface& surface_of(const Part& part, std::uint32_t number) {
+    const Layer& layer = part.layers[number / 2];
+    return number % 2 == 0 ? layer.outer : layer.inner;
 }
 
-void append_colors(const ImageView& image, MapImages& images) {
-    append_table(image, images);
-    for (std::uint32_t y = 0; y < image.height; ++y)
-        for (std::uint32_t x = 0; x < image.width; ++x) images.words.push_back(word(image.at(x, y)));
-}
+std::size_t texels(const ImageView& image) { return std::size_t(image.width) * image.height; }
 
 std::uint32_t normal_word(ElementFormat format, const std::byte* element) {
     if (format == ElementFormat::oct16) return word(element);
@@ -48,26 +42,41 @@ std::uint32_t normal_word(ElementFormat format, const std::byte* element) {
     return word(code);
 }
 
-void append_normals(const Surface& surface, MapImages& images) {
+void write_normals(const Surface& surface, std::span<std::uint32_t> words) {
     const ImageView& image = surface.normal;
-    append_table(image, images);
+    std::size_t at = 0;
     for (std::uint32_t y = 0; y < image.height; ++y)
         for (std::uint32_t x = 0; x < image.width; ++x)
-            images.words.push_back(has_surface(surface, x, y) ? normal_word(image.format, image.at(x, y))
-                                                              : SPA_NO_NORMAL);
+            words[at++] =
+                has_surface(surface, x, y) ? normal_word(image.format, image.at(x, y)) : SPA_NO_NORMAL;
 }
 
 } // namespace
 
-MapImages read_images(const Part& part, std::uint32_t surfaces) {
-    MapImages images;
+std::size_t image_words(const Part& part, std::uint32_t surfaces) {
+    std::size_t words = 0;
+    for (std::uint32_t s = 0; s < surfaces; ++s)
+        words += texels(surface_of(part, s).color) + texels(surface_of(part, s).normal);
+    return words;
+}
+
+std::vector<std::uint32_t> write_images(const Part& part, std::uint32_t surfaces, std::uint32_t first,
+                                        std::span<std::uint32_t> words) {
+    std::vector<std::uint32_t> table;
+    std::size_t at = 0;
+    const auto enter = [&](const ImageView& image) {
+        table.insert(table.end(), {first + std::uint32_t(at), image.width, image.height});
+        const std::span<std::uint32_t> place = words.subspan(at, texels(image));
+        at += place.size();
+        return place;
+    };
     for (std::uint32_t s = 0; s < surfaces; ++s) {
-        const Layer& layer = part.layers[s / 2];
-        const Surface& surface = s % 2 == 0 ? layer.outer : layer.inner;
-        append_colors(surface.color, images);
-        append_normals(surface, images);
+        const Surface& surface = surface_of(part, s);
+        const std::span<std::uint32_t> colors = enter(surface.color);
+        if (!colors.empty()) std::memcpy(colors.data(), surface.color.bytes.data(), colors.size_bytes());
+        write_normals(surface, enter(surface.normal));
     }
-    return images;
+    return table;
 }
 
 } // namespace spa::trace

@@ -7,6 +7,7 @@
 
 #include "../core/error.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <string>
@@ -24,12 +25,15 @@ void check_size(const Part& part) {
                         " samples is too large to trace; bake it with at most 16384 cells a side");
 }
 
-// Appends words and says where they are.
-std::uint32_t append(std::vector<std::uint32_t>& words, std::span<const std::uint32_t> more) {
-    constexpr std::uint64_t limit = UINT32_MAX;
-    if (words.size() + more.size() > limit)
+void check_length(std::size_t words) {
+    if (words > UINT32_MAX)
         throw Error(ExitCode::unsupported,
                     "this map is too large to trace: its trace image would have 2^32 words");
+}
+
+// Appends words and says where they are.
+std::uint32_t append(std::vector<std::uint32_t>& words, std::span<const std::uint32_t> more) {
+    check_length(words.size() + more.size());
     const auto place = std::uint32_t(words.size());
     words.insert(words.end(), more.begin(), more.end());
     return place;
@@ -88,20 +92,32 @@ TraceMap::TraceMap(const Part& part, const CompileOptions& options) {
     words[SPA_HEADER_RADIUS] = bits(1.0F);
     if (part.mapping == Mapping::octahedral) add_cells(part, samples, words);
     words[SPA_HEADER_DEPTHS] = append(words, patterns(samples.depth));
-    if (options.images) {
-        const MapImages images = read_images(part, samples.surfaces);
-        std::vector<std::uint32_t> table = images.table;
-        const auto first = std::uint32_t(words.size() + table.size());
-        for (std::size_t i = 0; i < table.size(); i += 3) table[i] += first;
-        words[SPA_HEADER_IMAGES] = append(words, table);
-        append(words, images.words);
-    } else {
-        words[SPA_HEADER_IMAGES] =
-            append(words, std::vector<std::uint32_t>(std::size_t(samples.surfaces) * SPA_IMAGE_WORDS, 0));
-    }
+    const std::vector<std::uint32_t> no_table(std::size_t(samples.surfaces) * SPA_IMAGE_WORDS, 0);
+    words[SPA_HEADER_IMAGES] = append(words, no_table);
     words[SPA_HEADER_LENGTH] = std::uint32_t(words.size());
-    words.shrink_to_fit();
+    if (options.images) {
+        std::vector<std::uint32_t> with_images(size_with_images(part));
+        write_with_images(part, with_images);
+        words_.swap(with_images);
+    }
+    words_.shrink_to_fit();
     map_ = shader::spa_open(shader::SpaWords{words_.data()});
+}
+
+std::size_t TraceMap::size_with_images(const Part& part) const {
+    const std::size_t size = words_.size() + image_words(part, words_[SPA_HEADER_SURFACES]);
+    check_length(size);
+    return size;
+}
+
+void TraceMap::write_with_images(const Part& part, std::span<std::uint32_t> words) const {
+    const std::uint32_t table_place = words_[SPA_HEADER_IMAGES];
+    const auto first = std::uint32_t(words_.size());
+    const std::vector<std::uint32_t> table =
+        write_images(part, words_[SPA_HEADER_SURFACES], first, words.subspan(first));
+    std::copy(words_.begin(), words_.begin() + table_place, words.begin());
+    std::copy(table.begin(), table.end(), words.begin() + table_place);
+    words[SPA_HEADER_LENGTH] = std::uint32_t(words.size());
 }
 
 std::size_t TraceMap::projective_bytes() const { return part_of_image(SPA_HEADER_DEPTHS, SPA_HEADER_NODES); }

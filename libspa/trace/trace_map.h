@@ -31,6 +31,12 @@ public:
     // Opened for the text; valid while this object lives and is not moved from.
     [[nodiscard]] const shader::SpaMap& map() const { return map_; }
 
+    // The same image with the colours and normals of `part`, for one compiled without them: written to memory
+    // that a device reads, straight from the part's views. size_with_images: words. Nothing is read of
+    // `words`.
+    [[nodiscard]] std::size_t size_with_images(const Part& part) const;
+    void write_with_images(const Part& part, std::span<std::uint32_t> words) const;
+
     // Bytes that a trace touches at most: nodes, cores, samples, cells, prisms. Without images and without
     // what fan and march read.
     [[nodiscard]] std::size_t projective_bytes() const;

@@ -47,8 +47,7 @@ Allocation DedicatedAllocator::allocate(const VkMemoryRequirements& requirements
     info.allocationSize = requirements.size;
     switch (use) {
     case MemoryUse::device:
-        info.memoryTypeIndex =
-            memory_type(device_.memory(), requirements.memoryTypeBits, 0, local, visible);
+        info.memoryTypeIndex = memory_type(device_.memory(), requirements.memoryTypeBits, 0, local, visible);
         break;
     case MemoryUse::upload:
         info.memoryTypeIndex =

@@ -95,8 +95,7 @@ Device::Device(const DeviceInfo& info) : info_(info) {
     properties.pNext = &structure;
     instance.vkGetPhysicalDeviceProperties2(info.physical_device, &properties);
     scratch_alignment_ =
-        std::max(scratch_alignment_,
-                 VkDeviceSize(structure.minAccelerationStructureScratchOffsetAlignment));
+        std::max(scratch_alignment_, VkDeviceSize(structure.minAccelerationStructureScratchOffsetAlignment));
 
     if (info.allocator == nullptr) own_allocator_ = std::make_unique<DedicatedAllocator>(*this);
     allocator_ = info.allocator == nullptr ? own_allocator_.get() : info.allocator;

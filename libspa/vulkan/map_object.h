@@ -4,19 +4,21 @@
 // Order of operations:
 //   1. Create the VkDevice with device_extensions() and DeviceFeatures (device.h), and a Device of it.
 //   2. Open the file (formats/container/reader.h), and make a MapObject of File::map(). Everything is
-//      allocated, and the images are written from the file's mapping straight into staging memory. The file may
-//      be closed now.
+//      allocated, and the images are written from the file's mapping straight into staging memory. The file
+//      may be closed now.
 //   3. record() into a command buffer of a queue that can compute: copies, barriers, one bottom-level
 //      acceleration structure a part. Submit it. load() does both for an application that may wait.
 //   4. After the submission's fence: finish() gives staging and scratch memory back.
 //   5. Put instance() of every part into a top-level structure, as often as wanted. Its instances with
 //      transforms of their own are what moves; bottom levels are never built again.
-//   6a. Ray-tracing pipelines: a hit group from the shaders of hit_group.h, a shader record a part: the group's
+//   6a. Ray-tracing pipelines: a hit group from the shaders of hit_group.h, a shader record a part: the
+//   group's
 //      handle, then the 16 bytes of record(); InstanceOptions::hit_record says which is an instance's.
 //   6b. Ray queries: a buffer of record(), one a custom index; #include "spa_ray_query.glsl" in the shader.
 //   7. Destroy the MapObject when no submitted work uses it any more.
 #pragma once
 
+#include "acceleration_structure.h"
 #include "buffer.h"
 
 #include "../core/affine.h"
@@ -33,58 +35,40 @@ namespace spa::vulkan {
 // (shaders/spa_record.glsl).
 struct ShaderRecord {
     VkDeviceAddress image = 0; // of the part's trace image (shaders/spa_map.h)
-    std::uint32_t flags = 0;   // SPA_CULL_BACK, SPA_CULL_FRONT
+    std::uint32_t flags = 0;   // SPA_CULL_BACK, SPA_CULL_FRONT, SPA_RECORD_COVERAGE (shaders/spa_hit.h)
     std::uint32_t part = 0;    // number of the part in the map
 };
 static_assert(sizeof(ShaderRecord) == 16);
 
 struct LoadOptions {
     trace::CompileOptions compile; // layers, and whether with colours and normals
-    // Hits call an any-hit shader (spa.rahit), which lets rays through where the stored coverage is below the
-    // threshold. false: the geometry is opaque.
+    // Lets rays through where the map stores little coverage: records have SPA_RECORD_COVERAGE, and the
+    // geometry is not opaque, so that hits call an any-hit shader (spa.rahit).
     bool coverage = false;
+    // The box of a part is that of its sphere instead of the stored surface: for fan and march, whose nearest
+    // samples and test points reach beyond the surface between the samples. The projective trace is faster
+    // without.
+    bool whole_sphere = false;
 };
 
 struct InstanceOptions {
-    std::uint32_t custom_index = 0;                // < 2^24; of the record in a table, for ray queries
-    std::uint8_t mask = 0xFF;                      // of rays that may see it
-    std::uint32_t hit_record = 0;                  // < 2^24; instanceShaderBindingTableRecordOffset
+    std::uint32_t custom_index = 0; // < 2^24; of the record in a table, for ray queries
+    std::uint8_t mask = 0xFF;       // of rays that may see it
+    std::uint32_t hit_record = 0;   // < 2^24; instanceShaderBindingTableRecordOffset
     VkGeometryInstanceFlagsKHR flags = 0;
 };
 
-struct MemoryUsed { // bytes
+struct MemoryUsed {              // bytes
     VkDeviceSize images = 0;     // trace images
     VkDeviceSize structures = 0; // acceleration structures
     VkDeviceSize temporary = 0;  // staging and scratch, until finish()
 };
 
-// An acceleration structure, destroyed with the object.
-class AccelerationStructure {
-public:
-    AccelerationStructure() = default;
-    // In [offset, offset + size) of `buffer`, which outlives it. offset: a multiple of 256.
-    AccelerationStructure(const Device& device, VkAccelerationStructureTypeKHR type, const Buffer& buffer,
-                          VkDeviceSize offset, VkDeviceSize size);
-    ~AccelerationStructure();
-    AccelerationStructure(AccelerationStructure&& other) noexcept;
-    AccelerationStructure& operator=(AccelerationStructure&& other) noexcept;
-
-    [[nodiscard]] VkAccelerationStructureKHR handle() const { return structure_; }
-    [[nodiscard]] VkDeviceAddress address() const { return address_; }
-
-private:
-    void destroy() noexcept;
-
-    const Device* device_ = nullptr;
-    VkAccelerationStructureKHR structure_ = VK_NULL_HANDLE;
-    VkDeviceAddress address_ = 0;
-};
-
 class MapObject {
 public:
     // Step 2. map: as a reader that has checked it gives it, or a bake; need not outlive the call. Throws
-    // Error: unsupported if the device's memory does not suffice or a part is too large (TraceMap), internal if
-    // Vulkan fails. O(samples).
+    // Error: unsupported if the device's memory does not suffice or a part is too large (TraceMap), internal
+    // if Vulkan fails. O(samples).
     MapObject(const Device& device, const SphericalMap& map, const LoadOptions& options = {});
 
     // Step 3. `commands` is recording, outside a render pass. Once. Later commands of the queue may trace
@@ -97,36 +81,39 @@ public:
     [[nodiscard]] const AccelerationStructure& structure(std::uint32_t part) const {
         return parts_[part].structure;
     }
-    // flags: of the trace.
+    // flags: SPA_CULL_BACK, SPA_CULL_FRONT.
     [[nodiscard]] ShaderRecord record(std::uint32_t part, std::uint32_t flags = 0) const;
-    // A part somewhere in the world: the shader's object space is the part's map space (shaders/README.md), so
-    // that t is the world's. object_to_world has an inverse; it may mirror, shear and scale unevenly.
-    [[nodiscard]] VkAccelerationStructureInstanceKHR instance(std::uint32_t part, const Affine& object_to_world,
-                                                              const InstanceOptions& options = {}) const;
+    // A part somewhere in the world: the shader's object space is the part's map space (shaders/README.md),
+    // so that t is the world's. object_to_world has an inverse; it may mirror, shear and scale unevenly.
+    [[nodiscard]] VkAccelerationStructureInstanceKHR
+    instance(std::uint32_t part, const Affine& object_to_world, const InstanceOptions& options = {}) const;
     [[nodiscard]] const MemoryUsed& memory() const { return memory_; }
 
 private:
     struct LoadedPart {
-        Vec3d center;
-        double radius = 1;
-        Mat3 frame;
+        Part placement;         // without layers
         VkDeviceSize image = 0; // where in images_
-        VkDeviceSize box = 0;   // where in images_ its AABB is
+        std::size_t image_words = 0;
+        VkDeviceSize box = 0; // where in images_ its AABB is
         VkDeviceSize structure_offset = 0, structure_size = 0, scratch_offset = 0;
         AccelerationStructure structure;
     };
     void write_images(const SphericalMap& map, const LoadOptions& options);
     void create_structures();
+    [[nodiscard]] VkAccelerationStructureGeometryKHR box_geometry(std::uint32_t part) const;
 
     const Device* device_;
-    VkGeometryFlagsKHR geometry_flags_;
-    Buffer images_, structures_, staging_, scratch_;
-    std::vector<LoadedPart> parts_; // after the buffer that their structures lie in
+    bool coverage_;
+    Buffer images_;     // trace images, then the boxes from which bottom levels are built
+    Buffer structures_; // bottom levels
+    Buffer staging_;    // what images_ will hold
+    Buffer scratch_;
+    std::vector<LoadedPart> parts_; // after structures_, in which theirs lie
     MemoryUsed memory_;
 };
 
-// Steps 3 and 4 for several objects, by a command buffer of its own that is waited for. queue: of this family,
-// which can compute; not used by others meanwhile.
+// Steps 3 and 4 for several objects, by a command buffer of its own that is waited for. queue: of this
+// family, which can compute; not used by others meanwhile.
 void load(const Device& device, VkQueue queue, std::uint32_t queue_family,
           std::span<MapObject* const> objects);
 
