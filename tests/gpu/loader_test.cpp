@@ -36,7 +36,10 @@ protected:
                 nullptr,
                 nullptr};
     }
-    [[nodiscard]] Rig rig() const { return {*device, *loader, SPA_GPU_SHADERS}; }
+    [[nodiscard]] Rig rig() const {
+        if (const char* other = other_map_shaders()) return {*device, *loader, other, true};
+        return {*device, *loader, SPA_GPU_SHADERS};
+    }
 
     std::unique_ptr<vulkan::Device> loader;
 };
