@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the library shaders/hlsl/spa.hlsl goes into a ray-tracing pipeline.
 //
-//   LocalRootSignature local;
-//   D3D12_ROOT_SIGNATURE_DESC signature = local.description();   D3D12SerializeRootSignature,
-//   CreateRootSignature,
-//                                                                associated with hit_group_name
-//   D3D12_HIT_GROUP_DESC group = hit_group();                    D3D12_STATE_SUBOBJECT_TYPE_HIT_GROUP
-//   D3D12_RAYTRACING_SHADER_CONFIG config{payload_size, attributes_size};
+//   1. The DXIL library, by dxc -T lib_6_5 -Gis shaders/hlsl/spa.hlsl.
+//   2. hit_group(): a subobject of type D3D12_STATE_SUBOBJECT_TYPE_HIT_GROUP.
+//   3. LocalRootSignature::description(), through D3D12SerializeRootSignature and CreateRootSignature: a
+//   local
+//      root signature, associated with hit_group_name.
+//   4. D3D12_RAYTRACING_SHADER_CONFIG{payload_size, attributes_size}, or more where other stages need it.
 //
 // A record of the shader table is the group's identifier and, behind it, the 16 bytes of MapObject::record().
 #pragma once

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <span>
 #include <string>
 
 namespace spa::dxr {
@@ -79,16 +80,19 @@ MapObject::MapObject(ID3D12Device5* device, const SphericalMap& map, const LoadO
 }
 
 void MapObject::write_images(ID3D12Device5* device, const SphericalMap& map, const LoadOptions& options) {
+    // Without images first: those go straight from the file's mapping to staging memory.
     std::vector<trace::TraceMap> traced;
     std::uint64_t size = 0;
     for (const Part& part : map.parts) {
-        traced.emplace_back(part, options.compile);
+        traced.emplace_back(part, trace::CompileOptions{options.compile.layers, false});
         LoadedPart& loaded = parts_.emplace_back();
         loaded.placement = part;
         loaded.placement.layers.clear(); // views that may not outlive this call
         loaded.placement.mixed = {};
         loaded.image = size;
-        size = align(size + traced.back().words().size_bytes(), image_alignment);
+        loaded.image_words =
+            options.compile.images ? traced.back().size_with_images(part) : traced.back().words().size();
+        size = align(size + loaded.image_words * sizeof(std::uint32_t), image_alignment);
     }
     for (LoadedPart& part : parts_) {
         part.box = size;
@@ -104,8 +108,12 @@ void MapObject::write_images(ID3D12Device5* device, const SphericalMap& map, con
     check(staging_->Map(0, &nothing_read, &mapped), "ID3D12Resource::Map");
     auto* const bytes = static_cast<std::byte*>(mapped);
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-        const std::span<const std::uint32_t> words = traced[i].words();
-        std::memcpy(bytes + parts_[i].image, words.data(), words.size_bytes());
+        const std::span<std::uint32_t> words(reinterpret_cast<std::uint32_t*>(bytes + parts_[i].image),
+                                             parts_[i].image_words);
+        if (options.compile.images)
+            traced[i].write_with_images(map.parts[i], words);
+        else
+            std::memcpy(words.data(), traced[i].words().data(), words.size_bytes());
         const D3D12_RAYTRACING_AABB box = box_of(traced[i].map(), options.whole_sphere);
         std::memcpy(bytes + parts_[i].box, &box, sizeof box);
     }

@@ -5,22 +5,18 @@
 // Order of operations:
 //   1. Create an ID3D12Device5 whose adapter traces rays: D3D12_RAYTRACING_TIER_1_0, for ray queries 1_1.
 //   2. Open the file (formats/container/reader.h), and make a MapObject of File::map(). Everything is
-//   allocated, and
-//      the trace images are written to staging memory. The file may be closed now.
+//      allocated, and the images are written from the file's mapping straight into staging memory. The file
+//      may be closed now.
 //   3. record() into a command list of the direct or compute type: a copy, barriers, one bottom-level
-//   acceleration
-//      structure a part. Execute it.
+//      acceleration structure a part. Execute it.
 //   4. When the queue has passed a fence behind it: finish() gives staging and scratch memory back.
 //   5. Put instance() of every part into a top-level structure, as often as wanted. Its instances with
-//   transforms
-//      of their own are what moves; bottom levels are never built again.
+//      transforms of their own are what moves; bottom levels are never built again.
 //   6a. Ray-tracing pipelines: the library shaders/hlsl/spa.hlsl and its hit group (hit_group.h); a shader
-//   record a
-//      part: the group's identifier, then the 16 bytes of record(). InstanceOptions::hit_record says which is
-//      an instance's.
-//   6b. Ray queries: a buffer of query_record(), one an instance ID; a raw view of images() a map
-//   (images_view());
-//      #include "spa_ray_query.hlsl" in the shader.
+//       record a part: the group's identifier, then the 16 bytes of record(). InstanceOptions::hit_record
+//       says which is an instance's.
+//   6b. Ray queries: a buffer of query_record(), one an instance ID; a raw view of images() for every map
+//       (images_view()); #include "spa_ray_query.hlsl" in the shader.
 //   7. Destroy the MapObject when no work that the GPU has not ended uses it any more.
 //
 // Nothing is global; calls on one object are not to overlap. Every failure of Direct3D is an Error and leaves
@@ -73,7 +69,8 @@ struct InstanceOptions {
     D3D12_RAYTRACING_INSTANCE_FLAGS flags = D3D12_RAYTRACING_INSTANCE_FLAG_NONE;
 };
 
-struct MemoryUsed {               // bytes
+// In bytes.
+struct MemoryUsed {
     std::uint64_t images = 0;     // trace images and boxes
     std::uint64_t structures = 0; // acceleration structures
     std::uint64_t temporary = 0;  // staging and scratch, until finish()
@@ -113,8 +110,9 @@ public:
 
 private:
     struct LoadedPart {
-        Part placement;                           // centre, radius and frame; without layers
-        std::uint64_t image = 0;                  // where in images_
+        Part placement;          // centre, radius and frame; without layers
+        std::uint64_t image = 0; // where in images_
+        std::size_t image_words = 0;
         std::uint64_t box = 0;                    // where in images_ its AABB is
         std::uint64_t structure = 0, scratch = 0; // where in structures_ and scratch_
     };
