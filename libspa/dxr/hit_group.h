@@ -4,8 +4,7 @@
 //   1. The DXIL library, by dxc -T lib_6_5 -Gis shaders/hlsl/spa.hlsl.
 //   2. hit_group(): a subobject of type D3D12_STATE_SUBOBJECT_TYPE_HIT_GROUP.
 //   3. LocalRootSignature::description(), through D3D12SerializeRootSignature and CreateRootSignature: a
-//   local
-//      root signature, associated with hit_group_name.
+//      local root signature, associated with hit_group_name.
 //   4. D3D12_RAYTRACING_SHADER_CONFIG{payload_size, attributes_size}, or more where other stages need it.
 //
 // A record of the shader table is the group's identifier and, behind it, the 16 bytes of MapObject::record().
