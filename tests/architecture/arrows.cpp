@@ -164,10 +164,10 @@ const std::vector<Module>& modules() {
                    "nlohmann_json::", "tinygltf"}},
         {.folder = "samples/",
          .targets = {"samples"},
-         .uses = {"libspa/core/", "libspa/mesh/", "libspa/bake/", "libspa/trace/", "formats/container/",
-                  "formats/import/", "shaders/"},
-         .includes = {"OpenImageIO/", "embree3/", "nlohmann/"},
-         .links = {"OpenImageIO::", "embree", "nlohmann_json::"}},
+         .uses = {"libspa/core/", "libspa/mesh/", "libspa/bake/", "libspa/trace/", "libspa/vulkan/",
+                  "formats/container/", "formats/import/", "shaders/"},
+         .includes = {"OpenImageIO/", "embree3/", "nlohmann/", "spirv/", "vulkan/"},
+         .links = {"OpenImageIO::", "Vulkan::", "embree", "nlohmann_json::"}},
     };
     return table;
 }
