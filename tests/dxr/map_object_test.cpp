@@ -35,7 +35,7 @@ const Baked& baked() {
         Baked result;
         const std::array<Grid, 3> grids{
             {{Mapping::octahedral, 17, 17}, {Mapping::octahedral, 25, 25}, {Mapping::latlong, 24, 12}}};
-        const std::array<const char*, 3> names{"smooth", "torus", "boot"};
+        const std::array<const char*, 3> names{"smooth", "concave", "boot"};
         const std::array<std::uint32_t, 3> layers{1, 2, 1};
         for (std::size_t i = 0; i < grids.size(); ++i) {
             bake::Options options;
