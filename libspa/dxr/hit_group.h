@@ -7,7 +7,8 @@
 //      local root signature, associated with hit_group_name.
 //   4. D3D12_RAYTRACING_SHADER_CONFIG{payload_size, attributes_size}, or more where other stages need it.
 //
-// A record of the shader table is the group's identifier and, behind it, the 16 bytes of MapObject::record().
+// A record of the shader table is the group's identifier and, behind it, the 16 bytes of
+// MapObject::shader_record().
 #pragma once
 
 #include "d3d12.h"

@@ -191,7 +191,7 @@ std::uint32_t MapObject::record_flags(std::uint32_t flags) const {
     return coverage_ ? flags | SPA_RECORD_COVERAGE : flags;
 }
 
-ShaderRecord MapObject::record(std::uint32_t part, std::uint32_t flags) const {
+ShaderRecord MapObject::shader_record(std::uint32_t part, std::uint32_t flags) const {
     return {images_->GetGPUVirtualAddress() + parts_[part].image, record_flags(flags), part};
 }
 

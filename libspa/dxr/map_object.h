@@ -13,8 +13,8 @@
 //   5. Put instance() of every part into a top-level structure, as often as wanted. Its instances with
 //      transforms of their own are what moves; bottom levels are never built again.
 //   6a. Ray-tracing pipelines: the library shaders/hlsl/spa.hlsl and its hit group (hit_group.h); a shader
-//       record a part: the group's identifier, then the 16 bytes of record(). InstanceOptions::hit_record
-//       says which is an instance's.
+//       record a part: the group's identifier, then the 16 bytes of shader_record().
+//       InstanceOptions::hit_record says which is an instance's.
 //   6b. Ray queries: a buffer of query_record(), one an instance ID; a raw view of images() for every map
 //       (images_view()); #include "spa_ray_query.hlsl" in the shader.
 //   7. Destroy the MapObject when no work that the GPU has not ended uses it any more.
@@ -93,7 +93,7 @@ public:
     // Of a part's bottom-level structure. Here and below part < part_count().
     [[nodiscard]] D3D12_GPU_VIRTUAL_ADDRESS structure(std::uint32_t part) const;
     // flags: of the trace; SPA_RECORD_COVERAGE is added if the map was loaded with coverage.
-    [[nodiscard]] ShaderRecord record(std::uint32_t part, std::uint32_t flags = 0) const;
+    [[nodiscard]] ShaderRecord shader_record(std::uint32_t part, std::uint32_t flags = 0) const;
     [[nodiscard]] QueryRecord query_record(std::uint32_t part, std::uint32_t buffer = 0,
                                            std::uint32_t flags = 0) const;
     // A part somewhere in the world: the shader's object space is the part's map space (shaders/README.md),

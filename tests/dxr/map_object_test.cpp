@@ -84,7 +84,7 @@ TEST_F(DxrMapObject, PutsTheTraceImagesOnTheDevice) {
         ASSERT_EQ(object.part_count(), 3U);
         for (std::uint32_t part = 0; part < 3; ++part) {
             const trace::TraceMap expected(baked().map.parts[part], options.compile);
-            const dxr::ShaderRecord record = object.record(part);
+            const dxr::ShaderRecord record = object.shader_record(part);
             EXPECT_EQ(record.image % 256, 0U);
             EXPECT_EQ(record.part, part);
             EXPECT_TRUE(std::ranges::equal(words_at(record.image, expected.words().size()), expected.words()))
@@ -100,7 +100,7 @@ TEST_F(DxrMapObject, CompilesAsManyLayersAsAskedFor) {
     object.record(&commands);
     const trace::TraceMap expected(baked().map.parts[1], options.compile);
     EXPECT_TRUE(
-        std::ranges::equal(words_at(object.record(1).image, expected.words().size()), expected.words()));
+        std::ranges::equal(words_at(object.shader_record(1).image, expected.words().size()), expected.words()));
 }
 
 TEST_F(DxrMapObject, BuildsOneStructureOfTheImagesBoxAPart) {
@@ -177,10 +177,10 @@ TEST_F(DxrMapObject, DoesWithoutScratchWhereADeviceNeedsNone) {
 
 TEST_F(DxrMapObject, MovesWithItsBuffers) {
     dxr::MapObject object(&device, baked().map);
-    const dxr::ShaderRecord before = object.record(1);
+    const dxr::ShaderRecord before = object.shader_record(1);
     dxr::MapObject moved = std::move(object);
     moved.record(&commands);
-    EXPECT_EQ(moved.record(1).image, before.image);
+    EXPECT_EQ(moved.shader_record(1).image, before.image);
     moved = dxr::MapObject(&device, baked().map);
     EXPECT_EQ(device.alive.size(), 4U);
 }
@@ -252,7 +252,7 @@ TEST_F(DxrMapObject, CoverageCallsAnyHitAndMarksRecords) {
     object.record(&commands);
     for (const auto& [address, built] : commands.structures)
         EXPECT_EQ(built.flags & D3D12_RAYTRACING_GEOMETRY_FLAG_OPAQUE, 0);
-    EXPECT_EQ(object.record(0, SPA_CULL_BACK).flags, SPA_CULL_BACK | SPA_RECORD_COVERAGE);
+    EXPECT_EQ(object.shader_record(0, SPA_CULL_BACK).flags, SPA_CULL_BACK | SPA_RECORD_COVERAGE);
     EXPECT_EQ(object.query_record(0).flags, SPA_RECORD_COVERAGE);
 }
 
@@ -267,7 +267,7 @@ TEST_F(DxrMapObject, QueryRecordsCountWordsOfTheView) {
     for (std::uint32_t part = 0; part < 3; ++part) {
         const dxr::QueryRecord record = object.query_record(part, 7, SPA_CULL_FRONT);
         EXPECT_EQ(object.images()->GetGPUVirtualAddress() + 4ULL * record.first_word,
-                  object.record(part).image);
+                  object.shader_record(part).image);
         EXPECT_EQ(record.buffer, 7U);
         EXPECT_EQ(record.flags, SPA_CULL_FRONT);
         EXPECT_EQ(record.part, part);
