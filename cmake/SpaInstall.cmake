@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 # What a program needs that loads `.spa` files (component "development": spa::core, spa::container and
 # spa::trace_map), traces them on the CPU (spa::trace, if it was built: find_package(spa COMPONENTS trace), pkg-config
-# spa-trace) or on a Vulkan device (spa::vulkan: COMPONENTS vulkan, pkg-config spa-vulkan), with
-# headers, find_package and pkg-config files; and the command (component "tools").
+# spa-trace), on a Vulkan device (spa::vulkan: COMPONENTS vulkan, pkg-config spa-vulkan) or a Direct3D 12 one
+# (spa::dxr, the same way), with headers, find_package and pkg-config files; and the command (component "tools").
 # Users write #include <libspa/core/...> and <formats/container/...>, as the source tree is laid out, so
 # that the headers' own relative includes hold. What only the sources include is not installed.
 include(CMakePackageConfigHelpers)
 
 set(spa_exported_targets spa_core spa_container spa_trace_map)
 set(spa_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/spa)
-foreach(target IN ITEMS spa_trace spa_vulkan)
+foreach(target IN ITEMS spa_trace spa_vulkan spa_dxr)
   if(TARGET ${target})
     list(APPEND spa_optional_targets ${target})
   endif()
@@ -56,6 +56,17 @@ if(TARGET spa_vulkan)
   list(TRANSFORM vulkan_headers PREPEND libspa/vulkan/)
   install(FILES ${vulkan_headers}
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spa/libspa/vulkan COMPONENT development)
+endif()
+# And no Direct3D ones; the package that finds the library finds those.
+if(TARGET spa_dxr)
+  install(TARGETS spa_dxr EXPORT spaDxrTargets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+  install(EXPORT spaDxrTargets NAMESPACE spa:: DESTINATION ${spa_package_dir} COMPONENT development)
+  install(FILES cmake/SpaDirectX.cmake DESTINATION ${spa_package_dir} COMPONENT development)
+  set(dxr_headers com.h d3d12.h hit_group.h map_object.h)
+  list(TRANSFORM dxr_headers PREPEND libspa/dxr/)
+  install(FILES ${dxr_headers}
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spa/libspa/dxr COMPONENT development)
 endif()
 # The tracing text and the stages that use it.
 install(DIRECTORY shaders/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spa/shaders COMPONENT development

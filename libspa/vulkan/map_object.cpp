@@ -144,7 +144,7 @@ void MapObject::finish() {
     memory_.temporary = 0;
 }
 
-ShaderRecord MapObject::record(std::uint32_t part, std::uint32_t flags) const {
+ShaderRecord MapObject::shader_record(std::uint32_t part, std::uint32_t flags) const {
     if (coverage_) flags |= SPA_RECORD_COVERAGE;
     return {images_.address() + parts_[part].image, flags, part};
 }

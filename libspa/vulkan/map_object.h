@@ -13,8 +13,9 @@
 //      transforms of their own are what moves; bottom levels are never built again.
 //   6a. Ray-tracing pipelines: a hit group from the shaders of hit_group.h, a shader record a part: the
 //   group's
-//      handle, then the 16 bytes of record(); InstanceOptions::hit_record says which is an instance's.
-//   6b. Ray queries: a buffer of record(), one a custom index; #include "spa_ray_query.glsl" in the shader.
+//      handle, then the 16 bytes of shader_record(); InstanceOptions::hit_record says which is an instance's.
+//   6b. Ray queries: a buffer of shader_record(), one a custom index; #include "spa_ray_query.glsl" in the
+//   shader.
 //   7. Destroy the MapObject when no submitted work uses it any more.
 #pragma once
 
@@ -82,7 +83,7 @@ public:
         return parts_[part].structure;
     }
     // flags: SPA_CULL_BACK, SPA_CULL_FRONT.
-    [[nodiscard]] ShaderRecord record(std::uint32_t part, std::uint32_t flags = 0) const;
+    [[nodiscard]] ShaderRecord shader_record(std::uint32_t part, std::uint32_t flags = 0) const;
     // A part somewhere in the world: the shader's object space is the part's map space (shaders/README.md),
     // so that t is the world's. object_to_world has an inverse; it may mirror, shear and scale unevenly.
     [[nodiscard]] VkAccelerationStructureInstanceKHR

@@ -224,7 +224,7 @@ void draw(const char* map_path, const char* out) {
         vulkan::InstanceOptions options;
         options.custom_index = part;
         instances.push_back(map.instance(part, {}, options));
-        records.push_back(map.record(part));
+        records.push_back(map.shader_record(part));
     }
     vulkan::TopLevel scene(device, instances);
 

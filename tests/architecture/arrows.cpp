@@ -135,6 +135,11 @@ const std::vector<Module>& modules() {
          .uses = {"libspa/core/", "libspa/trace/", "shaders/"},
          .includes = {"vulkan/vulkan_core.h", "spirv/"}, // the last are generated
          .links = {"Vulkan::Headers"}},
+        {.folder = "libspa/dxr/",
+         .targets = {"dxr"},
+         .uses = {"libspa/core/", "libspa/trace/", "shaders/"},
+         .includes = {"directx/d3d12.h", "d3d12.h", "windows.h", "wsl/winadapter.h"},
+         .links = {}},
         {.folder = "libspa/render/",
          .targets = {"render"},
          .uses = {"libspa/core/", "libspa/mesh/", "libspa/trace/", "libspa/vulkan/", "shaders/"},

@@ -67,7 +67,7 @@ void LoadedScene::load(const Rig& rig, const vulkan::LoadOptions& options) {
             vulkan::InstanceOptions instance;
             instance.custom_index = instance.hit_record = index;
             instances_.push_back(objects_[placed.map].instance(part, placed.to_world, instance));
-            records_.push_back(objects_[placed.map].record(part, placed.flags));
+            records_.push_back(objects_[placed.map].shader_record(part, placed.flags));
             targets_.push_back({baked.first_image + part,
                                 trace::map_space(baked.map.parts[part], placed.to_world),
                                 records_.back().flags});

@@ -36,7 +36,10 @@ protected:
                 nullptr,
                 nullptr};
     }
-    [[nodiscard]] Rig rig() const { return {*device, *loader, SPA_GPU_SHADERS}; }
+    [[nodiscard]] Rig rig() const {
+        if (const char* other = other_map_shaders()) return {*device, *loader, other, true};
+        return {*device, *loader, SPA_GPU_SHADERS};
+    }
 
     std::unique_ptr<vulkan::Device> loader;
 };
@@ -241,8 +244,8 @@ TEST_F(Loader, SaysWhatAMapNeeds) {
     EXPECT_LT(object.memory().images, words * 4 + 512);
     EXPECT_GT(object.memory().structures, 0U);
     EXPECT_EQ(object.memory().temporary, 0U) << "after finish()";
-    EXPECT_EQ(object.record(1).part, 1U);
-    EXPECT_EQ((object.record(1).image - object.record(0).image) % 256, 0U);
+    EXPECT_EQ(object.shader_record(1).part, 1U);
+    EXPECT_EQ((object.shader_record(1).image - object.shader_record(0).image) % 256, 0U);
 }
 
 TEST_F(Loader, RefusesAMapWithoutParts) { EXPECT_THROW(vulkan::MapObject(*loader, SphericalMap{}), Error); }

@@ -51,6 +51,17 @@ void create_module(const VulkanDevice& device, std::span<const std::uint32_t> wo
     check(vkCreateShaderModule(device.handle(), &info, nullptr, module.out()), "vkCreateShaderModule");
 }
 
+void create_hit_module(const Rig& rig, vulkan::HitStage stage, Module& module) {
+    if (!rig.own_hit_group) {
+        create_module(rig.device, vulkan::hit_stage_spirv(stage), module);
+        return;
+    }
+    const char* name = "spa.rint.spv";
+    if (stage == vulkan::HitStage::closest_hit) name = "spa.rchit.spv";
+    if (stage == vulkan::HitStage::any_hit) name = "spa.rahit.spv";
+    create_module(rig.device, read_spirv(rig.shaders / name), module);
+}
+
 VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module,
                                            const VkSpecializationInfo* specialization) {
     VkPipelineShaderStageCreateInfo info{};
@@ -125,7 +136,7 @@ private:
                                                  vulkan::HitStage::closest_hit};
         if (coverage) hit_stages.push_back(vulkan::HitStage::any_hit);
         for (std::size_t i = 0; i < hit_stages.size(); ++i) {
-            create_module(rig.device, vulkan::hit_stage_spirv(hit_stages[i]), modules[2 + i]);
+            create_hit_module(rig, hit_stages[i], modules[2 + i]);
             stages.push_back(stage_info(vulkan::stage_bit(hit_stages[i]), modules[2 + i].get(), &constants));
         }
         std::array<VkRayTracingShaderGroupCreateInfoKHR, 3> groups{};

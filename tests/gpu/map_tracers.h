@@ -45,6 +45,7 @@ struct Rig {
     const VulkanDevice& device;
     const vulkan::Device& loader;
     std::filesystem::path shaders; // folder of SPIR-V
+    bool own_hit_group = false;    // of that folder too, instead of the loader's
 };
 
 // instances: whose custom index and hit record are both the index of a record. coverage: with the any-hit

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program of somebody else that loads maps onto a Vulkan device: includes every installed header of the loader.
-// It needs no Vulkan library to start.
+// A program of somebody else that loads maps onto a Vulkan device: includes every installed header of the
+// loader. It needs no Vulkan library to start.
 #include <formats/container/reader.h>
 #include <libspa/vulkan/acceleration_structure.h>
 #include <libspa/vulkan/allocator.h>
