@@ -9,7 +9,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #define SPA_HIT_STAGE
-#include "spa_record.glsl"
+#include "spa_trace.glsl"
 #include "spa_payload.glsl"
 
 layout(location = 0) rayPayloadInEXT SpaPayload payload;

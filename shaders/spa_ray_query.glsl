@@ -13,7 +13,7 @@
 #ifndef SPA_RAY_QUERY_GLSL
 #define SPA_RAY_QUERY_GLSL
 
-#include "spa_record.glsl"
+#include "spa_trace.glsl"
 
 #define SPA_QUERY_NOTHING 0u
 #define SPA_QUERY_TRIANGLE 1u
@@ -63,7 +63,7 @@ SpaQueryHit spa_query_closest(SpaRay ray, uint ray_flags, uint mask) {
         }
         uint index = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false));
         SpaRecord record = SPA_QUERY_RECORD(index);
-        spa_image = record.image;
+        spa_current_image = record.image;
         float t_max = ray.t_max;
         if (rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT)
             t_max = rayQueryGetIntersectionTEXT(query, true);
@@ -104,7 +104,7 @@ bool spa_query_occluded(SpaRay ray, uint ray_flags, uint mask) {
         }
         uint index = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false));
         SpaRecord record = SPA_QUERY_RECORD(index);
-        spa_image = record.image;
+        spa_current_image = record.image;
         SpaRay object_ray =
             spa_object_ray(rayQueryGetIntersectionObjectRayOriginEXT(query, false), ray.t_min,
                            rayQueryGetIntersectionObjectRayDirectionEXT(query, false), ray.t_max);
@@ -121,7 +121,7 @@ bool spa_query_occluded(SpaRay ray, uint ray_flags, uint mask) {
 
 // The stored colour and normal (map space) at a map's hit.
 SpaShade spa_query_shade(SpaQueryHit best) {
-    spa_image = SPA_QUERY_RECORD(best.custom_index).image;
+    spa_current_image = SPA_QUERY_RECORD(best.custom_index).image;
     return spa_shade(spa_open(0u), best.map_hit);
 }
 

@@ -28,6 +28,9 @@ struct GpuOptions {
     std::string device;
     vulkan::Tracing tracing{true, true};
     bool validation = false; // with the Khronos validation layer, if it is installed
+    // Where messages() are kept, if not in the Gpu itself: they then include what the layer says when the
+    // device goes. Outlives the Gpu.
+    std::vector<std::string>* messages = nullptr;
 };
 
 // Throws Error: unsupported if no device suits, with what each lacks; usage if `device` names none.
@@ -42,11 +45,14 @@ public:
     [[nodiscard]] VkQueue queue() const;
     [[nodiscard]] std::uint32_t queue_family() const;
     [[nodiscard]] const DeviceEntry& entry() const;
+    [[nodiscard]] bool validated() const; // the layer was asked for and is installed
     // What the validation layer said so far, one message a string.
     [[nodiscard]] const std::vector<std::string>& messages() const;
 
-private:
     struct State;
+    [[nodiscard]] const State& state() const { return *state_; }
+
+private:
     std::unique_ptr<State> state_;
 };
 

@@ -22,6 +22,7 @@ struct MapPlacement {
     std::uint32_t node = 0; // index into Scene::nodes
     const SphericalMap* map = nullptr;
     std::uint32_t layers = 0; // as many at most; 0: all
+    bool holes = false;       // rays pass where less than half of a texel is covered (SPA_RECORD_COVERAGE)
 };
 
 struct SceneMemory {                       // bytes on the device

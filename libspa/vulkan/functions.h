@@ -2,9 +2,6 @@
 // The Vulkan functions that the loader calls, by pointer: nothing here links a Vulkan library.
 #pragma once
 
-#ifndef VK_NO_PROTOTYPES
-#define VK_NO_PROTOTYPES
-#endif
 #include <vulkan/vulkan_core.h>
 
 namespace spa::vulkan {

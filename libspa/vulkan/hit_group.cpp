@@ -30,7 +30,7 @@ VkShaderStageFlagBits stage_bit(HitStage stage) {
 
 VkSpecializationInfo specialization(const TraceConstants& constants) {
     static constexpr std::array<VkSpecializationMapEntry, 4> entries{{
-        {0, offsetof(TraceConstants, method), sizeof(std::uint32_t)},
+        {0, offsetof(TraceConstants, tracer), sizeof(std::uint32_t)},
         {1, offsetof(TraceConstants, count), sizeof(std::uint32_t)},
         {2, offsetof(TraceConstants, count_rule), sizeof(std::uint32_t)},
         {3, offsetof(TraceConstants, hole_threshold), sizeof(float)},

@@ -24,7 +24,7 @@ VkShaderStageFlagBits stage_bit(HitStage stage);
 // Specialisation constants of all stages, and of a shader that includes spa_ray_query.glsl: ids 0, 1, ... in
 // this order. The same for all stages of a group.
 struct TraceConstants {
-    std::uint32_t method = 0;     // SPA_PROJECTIVE, SPA_FAN, SPA_MARCH (shaders/spa_method.h)
+    std::uint32_t tracer = 0;     // SPA_PROJECTIVE, SPA_FAN, SPA_MARCH (shaders/spa_method.h)
     std::uint32_t count = 10;     // test rays of the fan, steps of the march
     std::uint32_t count_rule = 0; // SPA_FAN_FIXED, SPA_FAN_BY_DISTANCE
     float hole_threshold = 0.5F;  // of coverage, for records with SPA_RECORD_COVERAGE

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "map_object.h"
 
+#include "build.h"
 #include "submit.h"
 
 #include "../../shaders/spa_hit.h"
@@ -21,26 +22,6 @@ VkAabbPositionsKHR box_of(const shader::SpaMap& map) {
     if (map.mapping != SPA_OCTAHEDRAL) return {-1, -1, -1, 1, 1, 1}; // latlong images do not say
     return {map.box_low.x - box_margin,  map.box_low.y - box_margin,  map.box_low.z - box_margin,
             map.box_high.x + box_margin, map.box_high.y + box_margin, map.box_high.z + box_margin};
-}
-
-VkAccelerationStructureBuildGeometryInfoKHR build_info(const VkAccelerationStructureGeometryKHR& geometry) {
-    VkAccelerationStructureBuildGeometryInfoKHR info{};
-    info.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR;
-    info.type = VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
-    info.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
-    info.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
-    info.geometryCount = 1;
-    info.pGeometries = &geometry;
-    return info;
-}
-
-void barrier(const DeviceFunctions& call, VkCommandBuffer commands, VkPipelineStageFlags from_stage,
-             VkAccessFlags from, VkPipelineStageFlags to_stage, VkAccessFlags to) {
-    VkMemoryBarrier memory{};
-    memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-    memory.srcAccessMask = from;
-    memory.dstAccessMask = to;
-    call.vkCmdPipelineBarrier(commands, from_stage, to_stage, 0, 1, &memory, 0, nullptr, 0, nullptr);
 }
 
 } // namespace
@@ -106,17 +87,13 @@ VkAccelerationStructureGeometryKHR MapObject::box_geometry(std::uint32_t part) c
 }
 
 void MapObject::create_structures() {
-    const DeviceFunctions& call = device_->call();
     VkDeviceSize structures = 0;
     VkDeviceSize scratch = 0;
     for (std::uint32_t i = 0; i < parts_.size(); ++i) {
         const VkAccelerationStructureGeometryKHR geometry = box_geometry(i);
-        const VkAccelerationStructureBuildGeometryInfoKHR info = build_info(geometry);
-        constexpr std::uint32_t one_box = 1;
-        VkAccelerationStructureBuildSizesInfoKHR sizes{};
-        sizes.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR;
-        call.vkGetAccelerationStructureBuildSizesKHR(
-            device_->handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, &one_box, &sizes);
+        const VkAccelerationStructureBuildGeometryInfoKHR info =
+            build_info(VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, geometry);
+        const VkAccelerationStructureBuildSizesInfoKHR sizes = build_sizes(*device_, info, 1);
         parts_[i].structure_offset = structures;
         parts_[i].structure_size = sizes.accelerationStructureSize;
         parts_[i].scratch_offset = scratch;
@@ -140,16 +117,16 @@ void MapObject::record(VkCommandBuffer commands) {
     VkBufferCopy copy{};
     copy.size = staging_.size();
     call.vkCmdCopyBuffer(commands, staging_.handle(), images_.handle(), 1, &copy);
-    barrier(call, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-            VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-            VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR);
+    memory_barrier(call, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                   VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR);
 
     const VkDeviceAddress scratch = align(scratch_.address(), device_->scratch_alignment());
     std::vector<VkAccelerationStructureGeometryKHR> geometries;
     for (std::uint32_t i = 0; i < parts_.size(); ++i) geometries.push_back(box_geometry(i));
     std::vector<VkAccelerationStructureBuildGeometryInfoKHR> builds;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-        VkAccelerationStructureBuildGeometryInfoKHR& info = builds.emplace_back(build_info(geometries[i]));
+        VkAccelerationStructureBuildGeometryInfoKHR& info =
+            builds.emplace_back(build_info(VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, geometries[i]));
         info.dstAccelerationStructure = parts_[i].structure.handle();
         info.scratchData.deviceAddress = scratch + parts_[i].scratch_offset;
     }
@@ -157,9 +134,7 @@ void MapObject::record(VkCommandBuffer commands) {
     const std::vector<const VkAccelerationStructureBuildRangeInfoKHR*> ranges(parts_.size(), &one_box);
     call.vkCmdBuildAccelerationStructuresKHR(commands, std::uint32_t(builds.size()), builds.data(),
                                              ranges.data());
-    barrier(call, commands, VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
-            VK_ACCESS_ACCELERATION_STRUCTURE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-            VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR);
+    build_barrier(call, commands);
 }
 
 void MapObject::finish() {

@@ -19,10 +19,12 @@ namespace spa::test {
 // so it does without the validation layer.
 class GpuTest : public testing::Test {
 protected:
+    explicit GpuTest(vulkan::Tracing tracing = {}) : tracing_(tracing) {}
+
     void SetUp() override {
         const bool required = std::getenv("SPA_REQUIRE_VULKAN") != nullptr;
         try {
-            device = std::make_unique<VulkanDevice>(log_);
+            device = std::make_unique<VulkanDevice>(log_, tracing_);
         } catch (const Error& error) {
             if (required || error.code() != ExitCode::unsupported) FAIL() << error.what();
             GTEST_SKIP() << error.what();
@@ -43,6 +45,7 @@ protected:
     std::unique_ptr<VulkanDevice> device;
 
 private:
+    vulkan::Tracing tracing_;
     ValidationLog log_;
 };
 

@@ -67,6 +67,8 @@ std::optional<std::uint32_t> compute_family(VkPhysicalDevice device) {
     return std::nullopt;
 }
 
+bool traces_rays(vulkan::Tracing tracing) { return tracing.pipelines || tracing.queries; }
+
 } // namespace
 
 void check(VkResult result, const char* what) {
@@ -75,11 +77,11 @@ void check(VkResult result, const char* what) {
                 std::string(what) + " failed with VkResult " + std::to_string(int(result)));
 }
 
-VulkanDevice::VulkanDevice(ValidationLog& log) {
+VulkanDevice::VulkanDevice(ValidationLog& log, vulkan::Tracing tracing) {
     try {
         create_instance(log);
-        choose_device();
-        create_device();
+        choose_device(tracing);
+        create_device(tracing);
     } catch (...) {
         destroy();
         throw;
@@ -137,7 +139,8 @@ void VulkanDevice::create_instance(ValidationLog& log) {
     check(create(instance_, &messenger, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
 }
 
-void VulkanDevice::choose_device() {
+void VulkanDevice::choose_device(vulkan::Tracing tracing) {
+    std::string missing;
     const bool any = std::getenv("SPA_VULKAN_ANY_DEVICE") != nullptr;
     for (const VkPhysicalDevice device : devices_of(instance_)) {
         VkPhysicalDeviceDriverProperties driver{};
@@ -149,6 +152,10 @@ void VulkanDevice::choose_device() {
         const auto family = compute_family(device);
         if (!family || properties.properties.apiVersion < VK_API_VERSION_1_2) continue;
         if (!any && driver.driverID != VK_DRIVER_ID_MESA_LLVMPIPE) continue;
+        if (traces_rays(tracing)) {
+            missing = vulkan::missing(vkGetInstanceProcAddr, instance_, device, tracing);
+            if (!missing.empty()) continue;
+        }
         physical_device_ = device;
         queue_family_ = *family;
         limits_ = properties.properties.limits;
@@ -156,11 +163,12 @@ void VulkanDevice::choose_device() {
                        driver.driverInfo + (validated_ ? ", validated" : ", without the validation layer");
         return;
     }
+    if (!missing.empty()) throw Error(ExitCode::unsupported, "the Vulkan device here lacks " + missing);
     throw Error(ExitCode::unsupported, any ? "no Vulkan device here has a compute queue and Vulkan 1.2"
                                            : "Mesa's software Vulkan, lavapipe, is not here");
 }
 
-void VulkanDevice::create_device() {
+void VulkanDevice::create_device(vulkan::Tracing tracing) {
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{};
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -171,6 +179,13 @@ void VulkanDevice::create_device() {
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
+    vulkan::DeviceFeatures features(tracing);
+    const std::vector<const char*> extensions = vulkan::device_extensions(tracing);
+    if (traces_rays(tracing)) {
+        info.pNext = features.chain();
+        info.enabledExtensionCount = std::uint32_t(extensions.size());
+        info.ppEnabledExtensionNames = extensions.data();
+    }
     check(vkCreateDevice(physical_device_, &info, nullptr, &device_), "vkCreateDevice");
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
 }

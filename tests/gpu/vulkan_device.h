@@ -3,6 +3,8 @@
 // installed.
 #pragma once
 
+#include "../../libspa/vulkan/device.h"
+
 #include <vulkan/vulkan.h>
 
 #include <cstdint>
@@ -21,13 +23,15 @@ using ValidationLog = std::vector<std::string>;
 class VulkanDevice {
 public:
     // Mesa's software device, lavapipe, so that results are the same everywhere; with the environment
-    // variable SPA_VULKAN_ANY_DEVICE the first device with a compute queue. Throws Error{unsupported} if
-    // there is none, or no Vulkan at all.
-    explicit VulkanDevice(ValidationLog& log);
+    // variable SPA_VULKAN_ANY_DEVICE the first device with a compute queue. It traces rays as asked. Throws
+    // Error{unsupported} if there is none, or no Vulkan at all.
+    VulkanDevice(ValidationLog& log, vulkan::Tracing tracing);
     ~VulkanDevice();
     VulkanDevice(const VulkanDevice&) = delete;
     VulkanDevice& operator=(const VulkanDevice&) = delete;
 
+    [[nodiscard]] VkInstance instance() const { return instance_; }
+    [[nodiscard]] VkPhysicalDevice physical_device() const { return physical_device_; }
     [[nodiscard]] VkDevice handle() const { return device_; }
     [[nodiscard]] VkQueue queue() const { return queue_; }
     [[nodiscard]] std::uint32_t queue_family() const { return queue_family_; }
@@ -42,8 +46,8 @@ public:
 
 private:
     void create_instance(ValidationLog& log);
-    void choose_device();
-    void create_device();
+    void choose_device(vulkan::Tracing tracing);
+    void create_device(vulkan::Tracing tracing);
     void destroy();
 
     VkInstance instance_ = VK_NULL_HANDLE;

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// A frame in pieces, none of which keeps the device busy for long: some systems stop a device that does not
+// answer for a few seconds, and progress is told between them.
+#pragma once
+
+#include "kernel.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace spa::render {
+
+constexpr std::uint64_t max_pixels = 1U << 26U;
+
+struct Batch {
+    Pass pass = Pass::primary;
+    std::uint32_t first_row = 0, end_row = 0;
+    std::uint32_t first_sample = 0, end_sample = 0; // of the secondary pass
+    std::uint32_t primary_ray = 0;                  // number in its pixel
+};
+
+// For each primary ray of a pixel: that ray for all pixels, then the secondary rays of all pixels. A pixel's
+// samples come in their order, so how the work is cut does not change their sum.
+class Batches {
+public:
+    Batches(std::uint32_t width, std::uint32_t height, std::uint32_t antialias, std::uint32_t samples);
+
+    // None: that was all.
+    std::optional<Batch> next();
+    // How long the last one took; the next are made larger or smaller by that.
+    void took(double seconds);
+    [[nodiscard]] double share_done() const { return double(done_) / double(total_); }
+
+private:
+    [[nodiscard]] std::uint64_t rays_of(const Batch& batch) const;
+
+    std::uint32_t width_, height_, antialias_, samples_;
+    Batch last_;
+    bool begun_ = false;
+    std::uint64_t done_ = 0, total_; // rays
+    double budget_[2];               // rays a batch of a pass
+};
+
+} // namespace spa::render

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device_scene.h"
+
+#include "clock.h"
+#include "scene_materials.h"
+#include "upload.h"
+
+#include "../../shaders/spa_hit.h"
+#include "../core/error.h"
+#include "../vulkan/submit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace spa::render {
+namespace {
+
+// docs/rendering.md, "Where rays start".
+constexpr double scene_offset = 4e-6;  // of the diagonal of the scene's box
+constexpr double object_offset = 1e-3; // of the radius of an object that a map replaces
+
+double diagonal(const std::vector<Vec3f>& points) {
+    if (points.empty()) return 0;
+    Vec3f low = points.front();
+    Vec3f high = low;
+    for (const Vec3f& p : points) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return length(to_double(high) - to_double(low));
+}
+
+// The largest distance from its centre that a part reaches in the world, or a little more.
+double reach(const Part& part, const Affine& to_world) {
+    const Mat3 m = to_world.linear * part.frame;
+    return part.radius *
+           std::sqrt(dot(m.row[0], m.row[0]) + dot(m.row[1], m.row[1]) + dot(m.row[2], m.row[2])) /
+           std::sqrt(3.0);
+}
+
+VkAccelerationStructureInstanceKHR triangle_instance(const vulkan::AccelerationStructure& structure,
+                                                     std::uint32_t custom_index, std::uint32_t object) {
+    VkAccelerationStructureInstanceKHR instance{};
+    for (std::size_t i = 0; i < 3; ++i) instance.transform.matrix[i][i] = 1;
+    instance.instanceCustomIndex = custom_index & 0xFFFFFFU;
+    instance.mask = object == 0 ? SPA_MASK_STATIC : SPA_MASK_REPLACED;
+    // Nothing but what maps replace is ever culled.
+    instance.flags = object == 0 ? VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR |
+                                       VK_GEOMETRY_INSTANCE_TRIANGLE_FRONT_COUNTERCLOCKWISE_BIT_KHR
+                                 : VK_GEOMETRY_INSTANCE_TRIANGLE_FRONT_COUNTERCLOCKWISE_BIT_KHR;
+    instance.accelerationStructureReference = structure.address();
+    return instance;
+}
+
+} // namespace
+
+DeviceScene::State::State(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps,
+                          bool keep_replaced)
+    : has_replaced(keep_replaced || maps.empty()) {
+    const std::vector<std::uint32_t> objects = objects_of_nodes(scene, maps);
+    const SceneTriangles triangles = group_triangles(scene, objects, maps.size(), keep_replaced);
+    const double scene_size = diagonal(scene.model.positions) * scene_offset;
+    offsets_.push_back(float(scene_size));
+    for (const MapPlacement& placement : maps) {
+        double size = 0;
+        for (const Part& part : placement.map->parts)
+            size = std::max(size, reach(part, scene.nodes[placement.node].to_world));
+        offsets_.push_back(float(std::max(scene_size, size * object_offset)));
+    }
+
+    times.upload = seconds_of([&] {
+        add_triangles(gpu, scene, triangles);
+        add_materials(gpu, scene, triangles);
+        add_lights(gpu, scene);
+    });
+    add_triangle_instances(gpu, triangles);
+    times.map_load = seconds_of([&] { add_maps(gpu, scene, maps); });
+    times.upload += seconds_of([&] { globals.instances = keep(upload(gpu, instances_)); });
+    times.top_level = seconds_of([&] { add_top_level(gpu); });
+}
+
+VkDeviceAddress DeviceScene::State::keep(vulkan::Buffer buffer) {
+    if (buffer.empty()) return 0;
+    buffers_.push_back(std::move(buffer));
+    return buffers_.back().address();
+}
+
+void DeviceScene::State::add_triangles(const Gpu& gpu, const Scene& scene, const SceneTriangles& triangles) {
+    globals.positions = positions_ = keep(upload(gpu, triangles.positions));
+    globals.normals = keep(upload(gpu, triangles.normals));
+    globals.uvs = keep(upload(gpu, triangles.uvs));
+    globals.colors = keep(upload(gpu, triangles.colors));
+    globals.indices = indices_ = keep(upload(gpu, triangles.triangles));
+    globals.triangle_materials = keep(upload(gpu, triangles.materials));
+
+    const Model& model = scene.model;
+    const std::uint64_t vertex_bytes = sizeof(Vec3f) + (model.normals.empty() ? 0 : sizeof(Vec3f)) +
+                                       (model.uvs.empty() ? 0 : sizeof(Vec2f)) +
+                                       (model.colors.empty() ? 0 : sizeof(Vec4f));
+    for (const TriangleGroup& group : triangles.groups) {
+        std::uint64_t& bytes = group.object == 0 ? memory.triangles : memory.replaced_triangles;
+        bytes += group.vertex_count * vertex_bytes +
+                 group.triangle_count * (sizeof(Triangle) + sizeof(std::uint32_t));
+    }
+}
+
+void DeviceScene::State::add_materials(const Gpu& gpu, const Scene& scene, const SceneTriangles& triangles) {
+    const Model& model = scene.model;
+    std::vector<bool> used(model.textures.size(), false);
+    for (const TriangleGroup& group : triangles.groups) { // those of no object come first
+        std::uint64_t& bytes = group.object == 0 ? memory.triangles : memory.replaced_triangles;
+        for (std::uint32_t i = 0; i < group.triangle_count; ++i) {
+            const std::uint32_t texture =
+                model.materials[triangles.materials[group.first_triangle + i]].texture;
+            if (texture == no_index || model.uvs.empty() || used[texture]) continue;
+            used[texture] = true;
+            bytes += model.textures[texture].mips.front().pixels.size() * sizeof(std::uint32_t);
+        }
+    }
+    const SceneMaterials materials = make_materials(model, used);
+    globals.materials = keep(upload(gpu, materials.materials));
+    globals.textures = keep(upload(gpu, materials.textures));
+    globals.texels = keep(upload(gpu, materials.texels));
+}
+
+void DeviceScene::State::add_lights(const Gpu& gpu, const Scene& scene) {
+    globals.lights = keep(upload(gpu, make_lights(scene.lights)));
+    globals.light_count = std::uint32_t(scene.lights.size());
+}
+
+void DeviceScene::State::add_triangle_instances(const Gpu& gpu, const SceneTriangles& triangles) {
+    const auto first_replaced = std::find_if(triangles.groups.begin(), triangles.groups.end(),
+                                             [](const TriangleGroup& group) { return group.object != 0; });
+    const auto count = std::size_t(first_replaced - triangles.groups.begin());
+    const std::span<const TriangleGroup> groups(triangles.groups);
+    times.triangle_build =
+        seconds_of([&] { static_ = build_triangles(gpu, groups.first(count), positions_, indices_); });
+    times.replaced_build =
+        seconds_of([&] { replaced_ = build_triangles(gpu, groups.subspan(count), positions_, indices_); });
+    memory.triangle_structures = static_.storage.size();
+    memory.replaced_structures = replaced_.storage.size();
+
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        const TriangleGroup& group = groups[i];
+        const auto custom_index = std::uint32_t(instances_.size());
+        const vulkan::AccelerationStructure& structure =
+            i < count ? static_.structures[i] : replaced_.structures[i - count];
+        top_instances_.push_back(triangle_instance(structure, custom_index, group.object));
+        data::RenderInstance& instance = instances_.emplace_back();
+        instance.first_triangle = group.first_triangle;
+        instance.object = group.object;
+        instance.offset = offsets_[group.object];
+    }
+}
+
+void DeviceScene::State::add_maps(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps) {
+    std::vector<vulkan::MapObject*> objects;
+    for (const MapPlacement& placement : maps) {
+        vulkan::LoadOptions options;
+        options.compile.layers = placement.layers;
+        options.coverage = placement.holes;
+        maps_.push_back(std::make_unique<vulkan::MapObject>(gpu.device(), *placement.map, options));
+        objects.push_back(maps_.back().get());
+        has_coverage = has_coverage || placement.holes;
+    }
+    if (objects.empty()) return;
+    vulkan::load(gpu.device(), gpu.queue(), gpu.queue_family(), objects);
+
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        const SceneNode& node = scene.nodes[maps[i].node];
+        if (!(std::abs(determinant(node.to_world.linear)) > 0))
+            throw Error(ExitCode::invalid_data,
+                        "node '" + node.name + "' has a transform without inverse: a map cannot replace it");
+        memory.maps += maps_[i]->memory().images;
+        memory.map_structures += maps_[i]->memory().structures;
+        for (std::uint32_t part = 0; part < maps_[i]->part_count(); ++part) {
+            vulkan::InstanceOptions options;
+            options.custom_index = std::uint32_t(instances_.size());
+            options.mask = SPA_MASK_MAPS;
+            options.hit_record = first_map_record + std::uint32_t(records.size());
+            top_instances_.push_back(maps_[i]->instance(part, node.to_world, options));
+            const vulkan::ShaderRecord record = maps_[i]->record(part);
+            records.push_back(record);
+            records.push_back(maps_[i]->record(part, SPA_CULL_BACK));
+            data::RenderInstance& instance = instances_.emplace_back();
+            instance.image = record.image;
+            instance.flags = record.flags;
+            instance.part = record.part;
+            instance.object = std::uint32_t(i + 1);
+            instance.offset = offsets_[i + 1];
+        }
+    }
+}
+
+void DeviceScene::State::add_top_level(const Gpu& gpu) {
+    // A structure has to have an instance: without a structure it is never hit.
+    if (top_instances_.empty()) top_instances_.emplace_back();
+    top_level_.emplace(gpu.device(), top_instances_);
+    vulkan::submit_and_wait(gpu.device(), gpu.queue(), gpu.queue_family(),
+                            [&](VkCommandBuffer commands) { top_level_->record(commands); });
+    globals.scene = top_level_->structure().address();
+    memory.top_level = top_level_->bytes();
+}
+
+DeviceScene::DeviceScene(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps,
+                         bool keep_replaced)
+    : state_(std::make_unique<State>(gpu, scene, maps, keep_replaced)) {}
+DeviceScene::~DeviceScene() = default;
+
+const SceneMemory& DeviceScene::memory() const { return state_->memory; }
+const SceneTimes& DeviceScene::times() const { return state_->times; }
+
+} // namespace spa::render

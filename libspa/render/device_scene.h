@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a DeviceScene is made of, for the renderer's own files.
+#pragma once
+
+#include "render.h"
+#include "shaders/data.h"
+#include "structures.h"
+
+#include "../vulkan/map_object.h"
+#include "../vulkan/top_level.h"
+
+#include <memory>
+#include <optional>
+
+namespace spa::render {
+
+// Shader records of hit groups: two of triangles, then two a part.
+constexpr std::uint32_t first_map_record = 2;
+
+struct DeviceScene::State {
+    State(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps, bool keep_replaced);
+
+    SceneMemory memory;
+    SceneTimes times;
+    bool has_replaced = false; // triangles of what maps replace are here, if there are any
+    // Addresses of what is kept below, and the number of lights.
+    data::RenderGlobals globals{};
+    // Of parts, in the order of the instances' shader records: without and with SPA_CULL_BACK.
+    std::vector<vulkan::ShaderRecord> records;
+    bool has_coverage = false; // some map may have holes
+
+private:
+    void add_triangles(const Gpu& gpu, const Scene& scene, const SceneTriangles& triangles);
+    void add_materials(const Gpu& gpu, const Scene& scene, const SceneTriangles& triangles);
+    void add_lights(const Gpu& gpu, const Scene& scene);
+    void add_triangle_instances(const Gpu& gpu, const SceneTriangles& triangles);
+    void add_maps(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps);
+    void add_top_level(const Gpu& gpu);
+    // A buffer that lives as long as this; its address, 0 if there is nothing.
+    VkDeviceAddress keep(vulkan::Buffer buffer);
+
+    std::vector<vulkan::Buffer> buffers_;
+    TriangleStructures static_, replaced_;
+    std::vector<std::unique_ptr<vulkan::MapObject>> maps_;
+    std::vector<float> offsets_;                                    // of objects, 0: of what no map replaces
+    std::vector<data::RenderInstance> instances_;                   // by custom index
+    std::vector<VkAccelerationStructureInstanceKHR> top_instances_; // the same
+    VkDeviceAddress positions_ = 0, indices_ = 0;
+    std::optional<vulkan::TopLevel> top_level_;
+};
+
+} // namespace spa::render

@@ -1,0 +1,13 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+
+#include "data.h"
+
+layout(location = 0) rayPayloadInEXT RenderSurface payload;
+
+void main() { payload.kind = SPA_KIND_NOTHING; }
