@@ -67,9 +67,14 @@ protected:
 
     void bake() { ASSERT_EQ(run({"bake", "ball.obj", "-o", "ball.spa", "--size", "32"}).exit_code, 0); }
     Outcome run(const Arguments& arguments) { return run_spa(arguments, folder_.path()); }
-    // Small and quick; what is given last counts.
+    // Small and quick unless it is told otherwise. Software Vulkan compiles pipelines in a fifth of the time
+    // that it takes for one shader with all in it.
     Outcome render(const std::string& output, const Arguments& more = {}) {
-        Arguments arguments{"render", "scene.obj", "-o", output, "--size", "48x32", "--samples", "4", "-q"};
+        Arguments arguments{"render", "scene.obj", "-o", output, "-q"};
+        for (const auto& [option, value] :
+             {std::pair{"--size", "48x32"}, {"--samples", "4"}, {"--backend", "pipeline"}})
+            if (std::find(more.begin(), more.end(), option) == more.end())
+                arguments.insert(arguments.end(), {option, value});
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run(arguments);
     }
@@ -191,7 +196,7 @@ TEST_F(Render, AMapTakesTheNodesPlace) {
                              second = channel("second.exr", "kind");
     EXPECT_EQ(triangles, second) << "primary rays meet triangles unless they are told otherwise";
     EXPECT_EQ(count(triangles, 0) + count(triangles, 1), triangles.size());
-    EXPECT_GT(count(maps, 2), 50U) << "outer ends of the map's intervals";
+    EXPECT_GT(count(maps, 2), 20U) << "outer ends of the map's intervals";
     EXPECT_GT(count(maps, 1), 50U) << "the floor stays";
     EXPECT_NEAR(double(count(maps, 0)), double(count(triangles, 0)), 30) << "the silhouette is the same";
     EXPECT_NE(read_file(path("triangles.exr")), read_file(path("second.exr")));
@@ -201,19 +206,17 @@ TEST_F(Render, EveryMethodAndBackend) {
     bake();
     ASSERT_EQ(render("ref.exr").exit_code, 0);
     for (const Arguments& method : std::vector<Arguments>{{"projective"},
-                                                          {"fan"},
                                                           {"fan", "--test-rays", "3"},
                                                           {"march", "--test-rays", "64"},
-                                                          {"sphere"}})
-        for (const char* const backend : {"query", "pipeline"}) {
-            Arguments more{"--map", "ball=ball.spa", "--primary", "maps",    "--backend",
-                           backend, "--compare",     "ref.exr",   "--method"};
-            more.insert(more.end(), method.begin(), method.end());
-            const json report = render_json("out.exr", more);
-            const json error = report["comparison"]["figures"]["beauty"]["relmse"];
-            EXPECT_GT(error, 0);
-            EXPECT_LT(error, method[0] == "sphere" ? 1 : 0.3) << method[0] << " " << backend;
-        }
+                                                          {"sphere"},
+                                                          {"projective", "--backend", "query"},
+                                                          {"fan", "--backend", "query"}}) {
+        Arguments more{"--map", "ball=ball.spa", "--primary", "maps", "--compare", "ref.exr", "--method"};
+        more.insert(more.end(), method.begin(), method.end());
+        const json error = render_json("out.exr", more)["comparison"]["figures"]["beauty"]["relmse"];
+        EXPECT_GT(error, 0) << method.front();
+        EXPECT_LT(error, method.front() == "sphere" ? 1 : 0.1) << method.front();
+    }
 }
 
 TEST_F(Render, TheReferenceIsOfTrianglesAlone) {
