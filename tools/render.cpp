@@ -59,6 +59,14 @@ void list_devices(const RenderArguments& arguments) {
     print(arguments.format == ReportFormat::json ? json_text(devices_json(devices)) : devices_text(devices));
 }
 
+render::GpuOptions gpu_options(const RenderArguments& arguments) {
+    render::GpuOptions options;
+    options.device = arguments.device;
+    options.tracing.pipelines = arguments.settings.backend == render::Backend::pipeline;
+    options.tracing.queries = arguments.settings.backend == render::Backend::query;
+    return options;
+}
+
 import::SceneResult read_scene(const RenderArguments& arguments){
     const SlowStep step("reading " + arguments.scene.filename().string(), arguments.quiet);
 return import::read_scene(arguments.scene);
@@ -148,10 +156,7 @@ void render_scene(const RenderArguments& arguments) {
     const Stopwatch all;
     check_outputs(arguments, {});
     const InterruptGuard guard;
-    const render::Gpu gpu({arguments.device,
-                           {arguments.settings.backend == render::Backend::pipeline,
-                            arguments.settings.backend == render::Backend::query},
-                           false});
+    const render::Gpu gpu(gpu_options(arguments));
     std::optional<import::LinearPicture> reference;
     if (!arguments.compare.empty())
         reference = read_reference(arguments.compare, arguments.settings, arguments.fail);

@@ -74,9 +74,9 @@ void complete_tracing(Given& given) {
     RenderArguments& arguments = given.arguments;
     vulkan::TraceConstants& tracing = arguments.settings.tracing;
     const bool fan = arguments.method == MapMethod::fan, march = arguments.method == MapMethod::march;
-    if (arguments.method == MapMethod::projective) tracing.method = SPA_PROJECTIVE;
-    if (fan || arguments.method == MapMethod::sphere) tracing.method = SPA_FAN;
-    if (march) tracing.method = SPA_MARCH;
+    if (arguments.method == MapMethod::projective) tracing.tracer = SPA_PROJECTIVE;
+    if (fan || arguments.method == MapMethod::sphere) tracing.tracer = SPA_FAN;
+    if (march) tracing.tracer = SPA_MARCH;
     tracing.count = march ? shader::spa_march_defaults().steps : fan ? shader::spa_fan_defaults().count : 0;
     tracing.count_rule = SPA_FAN_FIXED;
     if (!given.test_rays) return;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 
 namespace spa::measure {
@@ -101,8 +100,7 @@ ImageErrors image_errors(const ImageRef& picture, const ImageRef& reference,
     errors.rmse = std::sqrt(errors.mse);
     errors.rel_mse = relative.value() / samples;
     const double displayed_mse = displayed_squares.value() / samples;
-    errors.psnr =
-        displayed_mse > 0 ? -10 * std::log10(displayed_mse) : std::numeric_limits<double>::infinity();
+    errors.psnr = -10 * std::log10(displayed_mse); // infinity for 0
     errors.ssim = structural_similarity(picture.width, picture.height, luma_picture, luma_reference);
     return errors;
 }

@@ -17,6 +17,14 @@ Batches::Batches(std::uint32_t width, std::uint32_t height, std::uint32_t antial
       total_(std::uint64_t(width) * height * antialias * (1 + std::uint64_t(samples))), budget_{first_rays,
                                                                                                 first_rays} {}
 
+Batches Batches::of_samples(std::uint32_t width, std::uint32_t height, std::uint32_t first,
+                            std::uint32_t end) {
+    Batches batches(width, height, 1, end);
+    batches.first_sample_ = batches.last_.first_sample = first;
+    batches.last_.pass = Pass::secondary;
+    return batches;
+}
+
 std::uint64_t Batches::rays_of(const Batch& batch) const {
     const std::uint64_t samples = batch.pass == Pass::primary ? 1 : batch.end_sample - batch.first_sample;
     return std::uint64_t(width_) * (batch.end_row - batch.first_row) * samples;
@@ -29,7 +37,7 @@ std::optional<Batch> Batches::next() {
         if (batch.pass == Pass::secondary && batch.end_sample < samples_) {
             batch.first_sample = batch.end_sample;
         } else {
-            batch.first_sample = 0;
+            batch.first_sample = first_sample_;
             batch.first_row = batch.end_row;
         }
         if (batch.first_row == height_) {
@@ -47,7 +55,7 @@ std::optional<Batch> Batches::next() {
 
     const std::uint32_t samples = batch.pass == Pass::primary ? 1 : samples_;
     const double rays = budget_[std::size_t(batch.pass)];
-    if (batch.first_sample == 0) {
+    if (batch.first_sample == first_sample_) {
         // Whole workgroups of rows; at the end of the picture what is left.
         const double rows =
             std::clamp(rays / (double(width_) * samples), double(SPA_GROUP_SIZE), double(height_));

@@ -25,6 +25,10 @@ class Batches {
 public:
     Batches(std::uint32_t width, std::uint32_t height, std::uint32_t antialias, std::uint32_t samples);
 
+    // Of one primary ray a pixel that was traced before: the secondary rays from `first` up to `end`.
+    static Batches of_samples(std::uint32_t width, std::uint32_t height, std::uint32_t first,
+                              std::uint32_t end);
+
     // None: that was all.
     std::optional<Batch> next();
     // How long the last one took; the next are made larger or smaller by that.
@@ -35,6 +39,7 @@ private:
     [[nodiscard]] std::uint64_t rays_of(const Batch& batch) const;
 
     std::uint32_t width_, height_, antialias_, samples_;
+    std::uint32_t first_sample_ = 0;
     Batch last_;
     bool begun_ = false;
     std::uint64_t done_ = 0, total_; // rays

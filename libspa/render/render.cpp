@@ -86,6 +86,19 @@ public:
     // False if `progress` said so.
     bool run(const std::function<bool(double)>& progress) {
         Batches batches(settings_.width, settings_.height, settings_.antialias, settings_.samples);
+        return run(batches, progress);
+    }
+    // More secondary rays of the primary ones that were traced.
+    void add_samples(std::uint32_t first, std::uint32_t end) {
+        Batches batches = Batches::of_samples(settings_.width, settings_.height, first, end);
+        run(batches, {});
+    }
+
+    Frame frame(std::uint32_t samples);
+    [[nodiscard]] const FrameTimes& times() const { return times_; }
+
+private:
+    bool run(Batches& batches, const std::function<bool(double)>& progress) {
         while (const auto batch = batches.next()) {
             const double seconds = seconds_of([&] { submit(batch->pass, *batch); });
             (batch->pass == Pass::primary ? times_.primary : times_.secondary) += seconds;
@@ -95,10 +108,6 @@ public:
         return true;
     }
 
-    Frame frame();
-    [[nodiscard]] const FrameTimes& times() const { return times_; }
-
-private:
     void submit(Pass pass, const Batch& batch) {
         data::RenderBatch push{};
         push.globals = globals_.address();
@@ -125,7 +134,7 @@ private:
 
 Vec3f scaled(const data::float3& v, float scale) { return {v.x * scale, v.y * scale, v.z * scale}; }
 
-Frame Renderer::frame() {
+Frame Renderer::frame(std::uint32_t samples) {
     const std::size_t count = std::size_t(settings_.width) * settings_.height;
     std::vector<data::RenderPixel> pixels(count);
     download_bytes(gpu_, pixels_, std::as_writable_bytes(std::span(pixels)));
@@ -133,7 +142,8 @@ Frame Renderer::frame() {
     frame.width = settings_.width;
     frame.height = settings_.height;
     const float of_ray = 1.0F / float(settings_.antialias);
-    const float of_sample = settings_.samples == 0 ? 0.0F : of_ray / float(settings_.samples);
+    const float of_sample = samples == 0 ? 0.0F : of_ray / float(samples);
+    times_.secondary_rays = times_.shadow_rays = 0;
     for (const data::RenderPixel& pixel : pixels) {
         frame.direct.push_back(scaled(pixel.direct, of_ray));
         frame.indirect.push_back(scaled(pixel.indirect, of_sample));
@@ -155,9 +165,27 @@ Frame render(const Gpu& gpu, const DeviceScene& scene, const Settings& settings,
     check_settings(settings, scene.state());
     Renderer renderer(gpu, scene.state(), settings);
     Frame frame;
-    if (renderer.run(progress)) frame = renderer.frame();
+    if (renderer.run(progress)) frame = renderer.frame(settings.samples);
     if (times != nullptr) *times = renderer.times();
     return frame;
+}
+
+std::vector<Frame> render_series(const Gpu& gpu, const DeviceScene& scene, const Settings& settings,
+                                 std::span<const std::uint32_t> samples, std::vector<FrameTimes>* times) {
+    Settings without_samples = settings;
+    without_samples.samples = 0;
+    check_settings(without_samples, scene.state());
+    Renderer renderer(gpu, scene.state(), without_samples);
+    renderer.run({});
+    std::vector<Frame> frames;
+    std::uint32_t done = 0;
+    for (const std::uint32_t count : samples) {
+        renderer.add_samples(done, count);
+        done = count;
+        frames.push_back(renderer.frame(count));
+        if (times != nullptr) times->push_back(renderer.times());
+    }
+    return frames;
 }
 
 } // namespace spa::render

@@ -98,4 +98,10 @@ struct FrameTimes {
 Frame render(const Gpu& gpu, const DeviceScene& scene, const Settings& settings, FrameTimes* times = nullptr,
              const std::function<bool(double)>& progress = {});
 
+// Several frames of one camera, each as render() gives it for that number of secondary rays: samples ascends, and
+// settings.samples is not looked at; settings.antialias is 1. Costs what the last of them costs. times: one
+// entry a frame, of all that it alone would take.
+std::vector<Frame> render_series(const Gpu& gpu, const DeviceScene& scene, const Settings& settings,
+                                 std::span<const std::uint32_t> samples, std::vector<FrameTimes>* times = nullptr);
+
 } // namespace spa::render
