@@ -2,7 +2,16 @@
 #include "bench_arguments.h"
 #include "verb.h"
 
+#include "../samples/samples.h"
+
 #include <memory>
+
+// Text about what only a build with Vulkan has.
+#ifdef SPA_HAS_RENDER
+#define WITH_RENDER(text) text
+#else
+#define WITH_RENDER(text)
+#endif
 
 namespace spa::tools {
 
@@ -25,6 +34,17 @@ std::vector<std::uint32_t> parse_numbers(const std::string& option, const std::s
     return numbers;
 }
 
+std::vector<int> parse_levels(const std::string& text) {
+    const std::size_t dots = text.find("..");
+    const std::string last = dots == std::string::npos ? text : text.substr(dots + 2);
+    const auto first_level = int(parse_number("--levels", text.substr(0, dots), 0, samples::max_level));
+    const auto last_level =
+        int(parse_number("--levels", last, std::uint32_t(first_level), samples::max_level));
+    std::vector<int> levels;
+    for (int level = first_level; level <= last_level; ++level) levels.push_back(level);
+    return levels;
+}
+
 void refuse(const std::string& what, const char* option, bool given) {
     if (given) throw Error(ExitCode::usage, std::string(option) + " is not for 'spa bench " + what + "'");
 }
@@ -39,7 +59,11 @@ CLI::Option* add_optional(CLI::App& app, const std::string& name, const std::str
 void bench(const std::string& what, const BenchArguments& arguments) {
     if (what == "bake") return bench_bake(arguments);
     if (what == "trace") return bench_trace(arguments);
-    throw Error(ExitCode::usage, "'" + what + "' is not a benchmark; there are bake and trace");
+#ifdef SPA_HAS_RENDER
+    if (what == "paper") return bench_paper(arguments);
+#endif
+    throw Error(ExitCode::usage,
+                "'" + what + "' is not a benchmark; there are bake, trace" WITH_RENDER(", paper"));
 }
 
 } // namespace
@@ -71,12 +95,21 @@ Verb bench_verb() {
             "for "
             "simplified meshes of it, and for the surface that a map stores as triangles. It says for which "
             "rays, which silhouettes are missed, and where a simplified mesh is the better choice.\n\n"
-            "Everything is timed in turns, and the median of all runs is reported.",
+            "Everything is timed in turns, and the median of all runs is reported." WITH_RENDER(
+                "\n\n'spa bench paper' repeats the experiments of the paper on a Vulkan device: its pictures "
+                "of "
+                "shadows, colour bleeding and a colonnade, and its Tables 1 to 7, each for triangles, for "
+                "the fan "
+                "with its numbers of test rays and for the projective trace, with the errors that the paper "
+                "does "
+                "not give and the paper's printed values beside ours. --out gets contact sheets, tables.csv, "
+                "report.json, report.txt and plots."),
         .examples = "$ spa bench bake\n"
                     "$ spa bench bake --levels 6 --only radial,embree --sizes 640x480\n"
                     "$ spa bench trace --plots plots\n"
                     "$ spa bench trace --models boot:6,chair.glb --format json > trace.json\n"
-                    "$ spa bench trace --models smooth:6 --only projective,mesh --sets chords",
+                    "$ spa bench trace --models smooth:6 --only projective,mesh --sets chords" WITH_RENDER(
+                        "\n$ spa bench paper --out paper"),
         .see_also = "spa bake, spa sample",
         .define = [](CLI::App& app) -> std::function<void()> {
             struct State {
@@ -85,11 +118,13 @@ Verb bench_verb() {
             };
             const auto state = std::make_shared<State>();
             BenchArguments& given = state->given;
-            add_text(app, "WHAT", "WHAT", "What to measure: bake or trace", [state](const std::string& text) {
-                state->what = text;
-            })->required();
-            add_optional(app, "--levels", "A..B",
-                         "bake: levels of subdivision of the boot, 0 to 6; or one alone", given.levels)
+            add_text(app, "WHAT", "WHAT", "What to measure: bake, trace" WITH_RENDER(", paper"),
+                     [state](const std::string& text) { state->what = text; })
+                ->required();
+            add_optional(
+                app, "--levels", "A..B",
+                "bake" WITH_RENDER(", paper") ": levels of subdivision of the boot, 0 to 6; or one alone",
+                given.levels)
                 ->default_str("0..6");
             add_optional(app, "--models", "M,...",
                          "trace: samples as NAME or NAME:LEVEL, and files, divided by commas", given.models)
@@ -118,7 +153,8 @@ Verb bench_verb() {
             add_optional(
                 app, "--only", "METHOD,...",
                 "bake: some of radial, embree, orbit, naive; trace: some of fan, march, projective, mesh, "
-                "lod, surface; divided by commas",
+                "lod, surface; " WITH_RENDER(
+                    "paper: some of tables, shadows, bleeding, colonnade, sponza; ") "divided by commas",
                 given.only)
                 ->default_str("all that this machine can");
             add_path(app, "--csv", "F.csv", "trace: also write one line a model, method, set and call",
@@ -126,7 +162,16 @@ Verb bench_verb() {
             add_path(app, "--plots", "DIR",
                      "trace: also write the lines and the plots of error against time and bytes, by gnuplot",
                      given.plots);
-            app.add_flag("--quick", given.quick, "trace: small models, few rays and sizes, one run");
+#ifdef SPA_HAS_RENDER
+            add_path(app, "--out", "DIR", "paper: the folder for what it writes", given.out);
+            add_text(app, "--device", "NAME",
+                     "paper: a Vulkan device by name or index (spa render --list-devices)",
+                     [&given](const std::string& text) { given.device = text; });
+            add_text(app, "--sponza", "FILE.obj", "paper: also the colonnade's pictures in the Sponza scene",
+                     [&given](const std::string& text) { given.sponza = text; });
+#endif
+            app.add_flag("--quick", given.quick,
+                         "trace" WITH_RENDER(", paper") ": small models, few rays and sizes, one run");
             add_report_format(app, given.format);
             app.add_flag("-q,--quiet", given.quiet, "No progress on standard error");
             return [state] { bench(state->what, state->given); };

@@ -13,7 +13,8 @@ namespace spa::tools {
 
 struct BenchArguments {
     std::optional<std::string> levels, models, sizes, layers, rays, threads, runs, only, sets;
-    std::filesystem::path csv, plots; // empty: none
+    std::filesystem::path csv, plots, out; // empty: none
+    std::string device, sponza;
     bool quick = false;
     ReportFormat format = ReportFormat::text;
     bool quiet = false;
@@ -31,8 +32,12 @@ std::vector<std::uint32_t> parse_numbers(const std::string& option, const std::s
 // Throws Error{usage} if an option was given that `what` does not know.
 void refuse(const std::string& what, const char* option, bool given);
 
-// `spa bench bake` and `spa bench trace`.
+// A level of the samples, or A..B. Throws Error{usage}.
+std::vector<int> parse_levels(const std::string& text);
+
+// `spa bench bake`, `spa bench trace` and `spa bench paper`, the last where Vulkan was built.
 void bench_bake(const BenchArguments& arguments);
 void bench_trace(const BenchArguments& arguments);
+void bench_paper(const BenchArguments& arguments);
 
 } // namespace spa::tools

@@ -22,10 +22,9 @@ struct Arguments {
 };
 
 void set_levels(Arguments& arguments, const std::string& text) {
-    const std::size_t dots = text.find("..");
-    const std::string last = dots == std::string::npos ? text : text.substr(dots + 2);
-    arguments.first_level = parse_number("--levels", text.substr(0, dots), 0, samples::max_level);
-    arguments.last_level = parse_number("--levels", last, arguments.first_level, samples::max_level);
+    const std::vector<int> levels = parse_levels(text);
+    arguments.first_level = std::uint32_t(levels.front());
+    arguments.last_level = std::uint32_t(levels.back());
 }
 
 void set_sizes(Arguments& arguments, const std::string& text) {

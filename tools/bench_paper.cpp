@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `spa bench paper`: the experiments of "Real-Time Ray Tracing with Spherically Projected Object Data" on this
-// machine's Vulkan device.
+// `spa bench paper`: the experiments of "Real-Time Ray Tracing with Spherically Projected Object Data" on
+// this machine's Vulkan device.
 #include "bench_arguments.h"
 #include "gnuplot.h"
 #include "interrupt.h"
@@ -30,7 +30,8 @@ std::uint32_t node_named(const Scene& scene, const std::string& name) {
     throw Error(ExitCode::internal, "a scene without a node '" + name + "'");
 }
 
-PaperScene sample_scene(const std::string& name, int level, std::size_t camera = 0, const std::string& title = "") {
+PaperScene sample_scene(const std::string& name, int level, std::size_t camera = 0,
+                        const std::string& title = "") {
     PaperScene result;
     result.scene = samples::make_scene(name, level);
     result.title = title.empty() ? name : title;
@@ -40,7 +41,8 @@ PaperScene sample_scene(const std::string& name, int level, std::size_t camera =
 }
 
 PaperFigure corner_figure() {
-    PaperFigure figure{"fig5-colour-bleeding", "Fig. 5: colour bleeding of the boot in a corner of white walls", {}, false};
+    PaperFigure figure{
+        "fig5-colour-bleeding", "Fig. 5: colour bleeding of the boot in a corner of white walls", {}, false};
     for (const char* const name : {"corner", "corner-b", "corner-c", "corner-d"})
         figure.scenes.emplace_back([name] { return sample_scene(name, figure_level); });
     return figure;
@@ -48,8 +50,10 @@ PaperFigure corner_figure() {
 
 PaperFigure colonnade_figure() {
     PaperFigure figure{"fig6-colonnade", "Fig. 6: the boot in a colonnade, lit from above", {}, false};
-    figure.scenes.emplace_back([] { return sample_scene("colonnade", figure_level, 0, "colonnade, from the side"); });
-    figure.scenes.emplace_back([] { return sample_scene("colonnade-b", figure_level, 1, "colonnade, the tip"); });
+    figure.scenes.emplace_back(
+        [] { return sample_scene("colonnade", figure_level, 0, "colonnade, from the side"); });
+    figure.scenes.emplace_back(
+        [] { return sample_scene("colonnade-b", figure_level, 1, "colonnade, the tip"); });
     return figure;
 }
 
@@ -96,8 +100,9 @@ struct Arguments {
 
 Arguments complete(const BenchArguments& given) {
     for (const auto& [option, value] :
-         {std::pair("--models", given.models), std::pair("--layers", given.layers), std::pair("--rays", given.rays),
-          std::pair("--threads", given.threads), std::pair("--sets", given.sets), std::pair("--sizes", given.sizes)})
+         {std::pair("--models", given.models), std::pair("--layers", given.layers),
+          std::pair("--rays", given.rays), std::pair("--threads", given.threads),
+          std::pair("--sets", given.sets), std::pair("--sizes", given.sizes)})
         refuse("paper", option, value.has_value());
     if (given.out.empty()) throw Error(ExitCode::usage, "'spa bench paper' wants --out DIR");
     Arguments arguments;

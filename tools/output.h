@@ -45,6 +45,7 @@ public:
     StagedFolder(const StagedFolder&) = delete;
     StagedFolder& operator=(const StagedFolder&) = delete;
 
+    [[nodiscard]] const std::filesystem::path& temporary_path() const { return temporary_; }
     // name: a plain file name. Throws Error{input_output}.
     void write(const std::string& name, std::span<const std::byte> bytes);
     // One rename for a new folder; one a file for a folder that was there. Throws Error{input_output}.

@@ -49,7 +49,8 @@ void errors(const PaperTables& tables, std::vector<PaperBar>& bars) {
         worst = std::max(worst, map->relmse_equal_seeds / fan->relmse_equal_seeds);
     }
     if (worst > 0)
-        bars.push_back({"relMSE of the indirect light, projective over fan 10, the worst level", worst, 0.1, false});
+        bars.push_back(
+            {"relMSE of the indirect light, projective over fan 10, the worst level", worst, 0.1, false});
 }
 
 } // namespace

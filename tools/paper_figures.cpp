@@ -13,7 +13,8 @@
 namespace spa::tools {
 namespace {
 
-constexpr std::array<const char*, 6> columns{triangles_name, "fan 1", "fan 3", "fan 5", "fan 10", "projective"};
+constexpr std::array<const char*, 6> columns{triangles_name, "fan 1",  "fan 3",
+                                             "fan 5",        "fan 10", "projective"};
 constexpr double indirect_exposure = 1; // stops: it is a fraction of the light
 
 measure::ImageRef picture(const render::Frame& frame, const std::vector<Vec3f>& pixels) {
@@ -24,8 +25,7 @@ class Figure {
 public:
     Figure(const render::Gpu& gpu, const PaperFigure& figure, const FigureOptions& options,
            std::vector<FigureError>& errors)
-        : gpu_(gpu), figure_(figure), options_(options), errors_(errors),
-          scale_(2 * figure.scenes.size()) {
+        : gpu_(gpu), figure_(figure), options_(options), errors_(errors), scale_(2 * figure.scenes.size()) {
         scale_.cell_width = options.width;
     }
 
@@ -53,8 +53,8 @@ private:
         for (const MapKind kind : {MapKind::none, MapKind::paper, MapKind::one_layer}) {
             bake::OwnedMap map;
             if (kind != MapKind::none) map = bake_for(object, kind);
-            const auto device_scene = on_device(gpu_, scene.scene, scene.object,
-                                                kind == MapKind::none ? nullptr : &map.map, true);
+            const auto device_scene =
+                on_device(gpu_, scene.scene, scene.object, kind == MapKind::none ? nullptr : &map.map, true);
             for (const char* const name : columns) {
                 const PaperMethod& method = paper_method(name);
                 if (method.map != kind) continue;

@@ -13,7 +13,7 @@
 namespace spa::tools {
 
 struct PaperFigure {
-    std::string file;  // name of its picture, without extension
+    std::string file; // name of its picture, without extension
     std::string title;
     std::vector<std::function<PaperScene()>> scenes;
     bool direct = false; // judged by the direct light (shadows), else by the indirect light
@@ -31,8 +31,8 @@ struct FigureOptions {
     std::function<bool(double share, const std::string& step)> progress; // false: cancels; may be empty
 };
 
-// A contact sheet: two rows a scene, the picture and the light it is judged by; a column a method. Throws Error,
-// and bake::Cancelled. errors: appended to.
+// A contact sheet: two rows a scene, the picture and the light it is judged by; a column a method. Throws
+// Error, and bake::Cancelled. errors: appended to.
 Picture draw_figure(const render::Gpu& gpu, const PaperFigure& figure, const FigureOptions& options,
                     std::vector<FigureError>& errors);
 

@@ -71,14 +71,10 @@ void compact(Model& model) {
 
 const std::vector<PaperMethod>& paper_methods() {
     static const std::vector<PaperMethod> methods{
-        fan("fan 0", 0, SPA_FAN_FIXED),
-        fan("fan 1", 1, SPA_FAN_FIXED),
-        fan("fan 3", 3, SPA_FAN_FIXED),
-        fan("fan 5", 5, SPA_FAN_FIXED),
-        fan("fan 10", 10, SPA_FAN_FIXED),
-        fan("fan N(d2)", most_tests, SPA_FAN_BY_DISTANCE),
-        {"projective", MapKind::one_layer, {}},
-        {"projective 2 layers", MapKind::two_layers, {}},
+        fan("fan 0", 0, SPA_FAN_FIXED),         fan("fan 1", 1, SPA_FAN_FIXED),
+        fan("fan 3", 3, SPA_FAN_FIXED),         fan("fan 5", 5, SPA_FAN_FIXED),
+        fan("fan 10", 10, SPA_FAN_FIXED),       fan("fan N(d2)", most_tests, SPA_FAN_BY_DISTANCE),
+        {"projective", MapKind::one_layer, {}}, {"projective 2 layers", MapKind::two_layers, {}},
         {triangles_name, MapKind::none, {}},
     };
     return methods;
@@ -147,8 +143,9 @@ Scene with_object(const PaperScene& from, std::span<const Vec3f> positions, std:
     return scene;
 }
 
-std::unique_ptr<render::DeviceScene> on_device(const render::Gpu& gpu, const Scene& scene, std::uint32_t object,
-                                               const SphericalMap* map, bool keep_replaced) {
+std::unique_ptr<render::DeviceScene> on_device(const render::Gpu& gpu, const Scene& scene,
+                                               std::uint32_t object, const SphericalMap* map,
+                                               bool keep_replaced) {
     std::vector<render::MapPlacement> placements;
     if (map != nullptr) placements.push_back({object, map, 0});
     return std::make_unique<render::DeviceScene>(gpu, scene, placements, keep_replaced);

@@ -15,7 +15,8 @@
 namespace spa::tools {
 
 // Which map, if any, stands for the object. `paper` is the paper's layout (640x480 latlong, 8-bit depth, one
-// surface), the others are octahedral with `map_cells` cells a side, centred where most of the surface is seen.
+// surface), the others are octahedral with `map_cells` cells a side, centred where most of the surface is
+// seen.
 enum class MapKind : std::uint8_t { none, paper, one_layer, two_layers };
 constexpr std::uint32_t map_cells = 128;
 
@@ -50,8 +51,9 @@ Scene with_object(const PaperScene& from, std::span<const Vec3f> positions, std:
 
 // The scene on the device, with the map in the place of the object. map: null: none. keep_replaced: with the
 // object's triangles too.
-std::unique_ptr<render::DeviceScene> on_device(const render::Gpu& gpu, const Scene& scene, std::uint32_t object,
-                                               const SphericalMap* map, bool keep_replaced);
+std::unique_ptr<render::DeviceScene> on_device(const render::Gpu& gpu, const Scene& scene,
+                                               std::uint32_t object, const SphericalMap* map,
+                                               bool keep_replaced);
 
 // Primary rays on triangles; secondary and shadow rays as the method says.
 render::Settings settings_of(const PaperMethod& method, const Camera& camera, std::uint32_t width,

@@ -13,15 +13,20 @@ struct Style {
     const char* gnuplot;
 };
 constexpr Style styles[] = {
-    {"triangles", "lc rgb '#2b8cbe' pt 9 lw 2"},      {"projective", "lc rgb '#d7301f' pt 7 lw 2"},
-    {"projective 2 layers", "lc rgb '#fc8d59' pt 6 lw 2"}, {"fan 0", "lc rgb '#cccccc' pt 4 lw 1"},
-    {"fan 1", "lc rgb '#bdbdbd' pt 13 lw 1"},         {"fan 3", "lc rgb '#969696' pt 12 lw 1"},
-    {"fan 5", "lc rgb '#636363' pt 11 lw 1"},         {"fan 10", "lc rgb '#252525' pt 10 lw 1"},
+    {"triangles", "lc rgb '#2b8cbe' pt 9 lw 2"},
+    {"projective", "lc rgb '#d7301f' pt 7 lw 2"},
+    {"projective 2 layers", "lc rgb '#fc8d59' pt 6 lw 2"},
+    {"fan 0", "lc rgb '#cccccc' pt 4 lw 1"},
+    {"fan 1", "lc rgb '#bdbdbd' pt 13 lw 1"},
+    {"fan 3", "lc rgb '#969696' pt 12 lw 1"},
+    {"fan 5", "lc rgb '#636363' pt 11 lw 1"},
+    {"fan 10", "lc rgb '#252525' pt 10 lw 1"},
     {"fan N(d2)", "lc rgb '#31a354' pt 3 lw 1"},
 };
 
-const char* const head = "set encoding utf8\nset grid lc rgb '#dddddd' lt 1\nset border 3\nset tics nomirror\n"
-                         "set format y '%g'\n";
+const char* const head =
+    "set encoding utf8\nset grid lc rgb '#dddddd' lt 1\nset border 3\nset tics nomirror\n"
+    "set format y '%g'\n";
 
 std::string block(const std::string& name, const std::string& lines) {
     return "$" + name + " << END\n" + lines + "END\n";
@@ -40,7 +45,8 @@ std::string frames_script(const PaperTables& tables) {
     for (const auto& [samples, series] : panels)
         for (std::size_t i = 0; i < std::size(styles); ++i)
             if (series.contains(styles[i].method))
-                text += block("p" + std::to_string(samples) + "_" + std::to_string(i), series.at(styles[i].method));
+                text += block("p" + std::to_string(samples) + "_" + std::to_string(i),
+                              series.at(styles[i].method));
     text += "set multiplot layout 2,2 title 'Frames a second against vertices of the boot'\nset logscale xy\n"
             "set xlabel 'vertices'\nset ylabel 'frames a second'\nset key outside right\n";
     for (const auto& [samples, series] : panels) {
@@ -49,7 +55,8 @@ std::string frames_script(const PaperTables& tables) {
         for (std::size_t i = 0; i < std::size(styles); ++i) {
             if (!series.contains(styles[i].method)) continue;
             text += (first ? "" : ", \\\n     ") + std::string("$p") + std::to_string(samples) + "_" +
-                    std::to_string(i) + " with linespoints " + styles[i].gnuplot + " title '" + styles[i].method + "'";
+                    std::to_string(i) + " with linespoints " + styles[i].gnuplot + " title '" +
+                    styles[i].method + "'";
             first = false;
         }
         text += "\n";
@@ -64,22 +71,25 @@ std::string error_script(const PaperTables& tables) {
     std::map<std::string, std::string> series;
     for (const PaperCell& cell : tables.cells)
         if (cell.samples == most && cell.relmse_equal_seeds > 0)
-            series[cell.method] += significant(double(cell.secondary_seconds) * 1e9 / double(cell.secondary_rays), 6) +
-                                   " " + significant(cell.relmse_equal_seeds, 6) + " " + std::to_string(cell.level) + "\n";
+            series[cell.method] +=
+                significant(double(cell.secondary_seconds) * 1e9 / double(cell.secondary_rays), 6) + " " +
+                significant(cell.relmse_equal_seeds, 6) + " " + std::to_string(cell.level) + "\n";
     std::string text = "set terminal pngcairo size 900,640 font 'Sans,11' background rgb 'white'\n";
     text += head;
     for (std::size_t i = 0; i < std::size(styles); ++i)
         if (series.contains(styles[i].method))
             text += block("s" + std::to_string(i), series.at(styles[i].method));
-    text += "set title 'Error of the indirect light against the time of a secondary ray, " + std::to_string(most) +
+    text += "set title 'Error of the indirect light against the time of a secondary ray, " +
+            std::to_string(most) +
             " rays a pixel; a point a level of the boot'\n"
-            "set logscale xy\nset format y '10^{%T}'\nset xlabel 'nanoseconds a secondary ray, its shadow ray included'\n"
+            "set logscale xy\nset format y '10^{%T}'\nset xlabel 'nanoseconds a secondary ray, its shadow "
+            "ray included'\n"
             "set ylabel 'relMSE against triangles with the same directions'\nset key outside right\nplot ";
     bool first = true;
     for (std::size_t i = 0; i < std::size(styles); ++i) {
         if (!series.contains(styles[i].method)) continue;
-        text += (first ? "" : ", \\\n     ") + std::string("$s") + std::to_string(i) + " using 1:2 with points " +
-                styles[i].gnuplot + " title '" + styles[i].method + "'";
+        text += (first ? "" : ", \\\n     ") + std::string("$s") + std::to_string(i) +
+                " using 1:2 with points " + styles[i].gnuplot + " title '" + styles[i].method + "'";
         first = false;
     }
     return text + "\n";
@@ -89,7 +99,8 @@ std::string error_script(const PaperTables& tables) {
 
 std::vector<PaperPlot> paper_plots(const PaperReport& report) {
     if (report.tables.cells.empty()) return {};
-    return {{"fig7-frames", frames_script(report.tables)}, {"speed-against-error", error_script(report.tables)}};
+    return {{"fig7-frames", frames_script(report.tables)},
+            {"speed-against-error", error_script(report.tables)}};
 }
 
 } // namespace spa::tools

@@ -73,12 +73,13 @@ std::vector<std::uint32_t> samples_of(const PaperTables& tables) {
 
 std::string column(const std::string& text, std::size_t width = 9) { return pad_left(text, width); }
 
-// One of the paper's tables: a row a method; for each number of samples the frames per second with the ratio to
-// triangles, and below them the same as printed, and the error.
+// One of the paper's tables: a row a method; for each number of samples the frames per second with the ratio
+// to triangles, and below them the same as printed, and the error.
 std::string table_text(const PaperTables& tables, const PaperCosts& costs) {
     const std::vector<std::uint32_t> samples = samples_of(tables);
-    std::string text = "boot level " + std::to_string(costs.level) + ", " + std::to_string(costs.vertices) +
-                       " vertices: frames a second (times triangles) | the paper's | relMSE of the indirect light\n";
+    std::string text =
+        "boot level " + std::to_string(costs.level) + ", " + std::to_string(costs.vertices) +
+        " vertices: frames a second (times triangles) | the paper's | relMSE of the indirect light\n";
     text += pad_right("", 20);
     for (const std::uint32_t n : samples) text += column("n = " + std::to_string(n), 16);
     text += " |";
@@ -96,8 +97,8 @@ std::string table_text(const PaperTables& tables, const PaperCosts& costs) {
                                significant(ratio_to_triangles(tables, *cell), 3) + "x)",
                            16);
             const auto fps = printed_frames_per_second(costs.level, method.name, n);
-            printed += column(fps ? significant(*fps, 4) + " (" + significant(*printed_ratio(*cell), 3) + "x)" : "-",
-                              15);
+            printed += column(
+                fps ? significant(*fps, 4) + " (" + significant(*printed_ratio(*cell), 3) + "x)" : "-", 15);
             error += column(significant(cell->relmse, 2));
         }
         text += " |" + printed + " |" + error + '\n';
@@ -106,19 +107,22 @@ std::string table_text(const PaperTables& tables, const PaperCosts& costs) {
 }
 
 std::string costs_text(const PaperTables& tables) {
-    std::string text = "what the object costs on the device, as triangles and as a map of one layer\n"
-                       "level  triangles   memory: triangles + structure        map + structure   build     load"
-                       "   file to first frame: triangles  map   equal simplified mesh\n";
+    std::string text =
+        "what the object costs on the device, as triangles and as a map of one layer\n"
+        "level  triangles   memory: triangles + structure        map + structure   build     load"
+        "   file to first frame: triangles  map   equal simplified mesh\n";
     for (const PaperCosts& costs : tables.costs) {
-        text += pad_left(std::to_string(costs.level), 5) + pad_left(std::to_string(costs.triangles), 11) +
-                pad_left(byte_count(costs.triangle_bytes) + " + " + byte_count(costs.triangle_structure_bytes), 31) +
-                pad_left(byte_count(costs.map_bytes) + " + " + byte_count(costs.map_structure_bytes), 23) +
-                pad_left(fixed(costs.triangle_build_seconds, 3) + " s", 10) +
-                pad_left(fixed(costs.map_load_seconds, 3) + " s", 9) +
-                pad_left(fixed(costs.triangle_first_frame, 2) + " s", 22) +
-                pad_left(fixed(costs.map_first_frame, 2) + " s", 13) +
-                pad_left(costs.lod_triangles ? std::to_string(*costs.lod_triangles) + " triangles" : "none", 24) +
-                '\n';
+        text +=
+            pad_left(std::to_string(costs.level), 5) + pad_left(std::to_string(costs.triangles), 11) +
+            pad_left(byte_count(costs.triangle_bytes) + " + " + byte_count(costs.triangle_structure_bytes),
+                     31) +
+            pad_left(byte_count(costs.map_bytes) + " + " + byte_count(costs.map_structure_bytes), 23) +
+            pad_left(fixed(costs.triangle_build_seconds, 3) + " s", 10) +
+            pad_left(fixed(costs.map_load_seconds, 3) + " s", 9) +
+            pad_left(fixed(costs.triangle_first_frame, 2) + " s", 22) +
+            pad_left(fixed(costs.map_first_frame, 2) + " s", 13) +
+            pad_left(costs.lod_triangles ? std::to_string(*costs.lod_triangles) + " triangles" : "none", 24) +
+            '\n';
     }
     return text;
 }
@@ -126,11 +130,10 @@ std::string costs_text(const PaperTables& tables) {
 } // namespace
 
 Json report_json(const PaperReport& report) {
-    Json json = {{"device", report.device},       {"driver", report.driver},
-                 {"backend", report.backend},     {"width", report.tables.width},
-                 {"height", report.tables.height}, {"cells", Json::array()},
-                 {"costs", Json::array()},        {"figures", Json::array()},
-                 {"bars", Json::array()}};
+    Json json = {
+        {"device", report.device},      {"driver", report.driver},        {"backend", report.backend},
+        {"width", report.tables.width}, {"height", report.tables.height}, {"cells", Json::array()},
+        {"costs", Json::array()},       {"figures", Json::array()},       {"bars", Json::array()}};
     for (const PaperCell& cell : report.tables.cells) json["cells"].push_back(cell_json(report.tables, cell));
     for (const PaperCosts& costs : report.tables.costs) json["costs"].push_back(costs_json(costs));
     for (const FigureError& error : report.figures)
@@ -151,7 +154,8 @@ Json report_json(const PaperReport& report) {
 std::string report_text(const PaperReport& report) {
     std::string text = report.device + ", " + report.driver + ", by " + report.backend + "\n";
     if (!report.tables.cells.empty())
-        text += std::to_string(report.tables.width) + " x " + std::to_string(report.tables.height) + " pixels\n\n";
+        text += std::to_string(report.tables.width) + " x " + std::to_string(report.tables.height) +
+                " pixels\n\n";
     for (const PaperCosts& costs : report.tables.costs) text += table_text(report.tables, costs) + '\n';
     if (!report.tables.costs.empty()) text += costs_text(report.tables) + '\n';
     std::string figure;
@@ -163,8 +167,9 @@ std::string report_text(const PaperReport& report) {
     }
     if (!report.bars.empty()) text += "\nto reach\n";
     for (const PaperBar& bar : report.bars)
-        text += std::string(bar.reached() ? "  reached  " : "  MISSED   ") + significant(bar.value, 3) + " (" +
-                (bar.at_least ? "at least " : "at most ") + significant(bar.limit, 3) + ")  " + bar.name + "\n";
+        text += std::string(bar.reached() ? "  reached  " : "  MISSED   ") + significant(bar.value, 3) +
+                " (" + (bar.at_least ? "at least " : "at most ") + significant(bar.limit, 3) + ")  " +
+                bar.name + "\n";
     return text;
 }
 

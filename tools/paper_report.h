@@ -36,8 +36,8 @@ std::string report_text(const PaperReport& report);
 // A title line, then one line a cell of the tables.
 std::string report_csv(const PaperReport& report);
 
-// Scripts for gnuplot: frames per second against vertices as in Fig. 7, one panel a number of samples; and speed
-// against error.
+// Scripts for gnuplot: frames per second against vertices as in Fig. 7, one panel a number of samples; and
+// speed against error.
 struct PaperPlot {
     std::string name; // of the file, without extension
     std::string script;

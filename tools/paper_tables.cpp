@@ -2,8 +2,8 @@
 #include "paper_tables.h"
 
 #include "../libspa/bake/crossings.h"
-#include "../libspa/measure/lod_peer.h"
 #include "../libspa/measure/image_errors.h"
+#include "../libspa/measure/lod_peer.h"
 #include "../libspa/measure/stopwatch.h"
 
 #include <algorithm>
@@ -109,11 +109,10 @@ private:
     }
 
     // Frames with each number of samples. equal_seeds: those of triangles; null: these are.
-    std::map<std::uint32_t, render::Frame> run_method(int level, const PaperScene& scene,
-                                                      const render::DeviceScene& device_scene,
-                                                      const PaperMethod& method,
-                                                      const std::map<std::uint32_t, render::Frame>* equal_seeds,
-                                                      const render::Frame* reference) {
+    std::map<std::uint32_t, render::Frame>
+    run_method(int level, const PaperScene& scene, const render::DeviceScene& device_scene,
+               const PaperMethod& method, const std::map<std::uint32_t, render::Frame>* equal_seeds,
+               const render::Frame* reference) {
         const render::Settings settings = this->settings(method, scene);
         std::vector<std::vector<render::FrameTimes>> times(options_.runs);
         std::vector<render::Frame> frames;
@@ -147,24 +146,27 @@ private:
         const PaperTableOptions::Files files = options_.files(object, map);
         costs.glb_bytes = files.glb_bytes;
         costs.spa_bytes = files.spa_bytes;
-        costs.triangle_first_frame = files.read_glb + measure::seconds_of([&] {
-            const auto device_scene = on_device(gpu_, scene.scene, scene.object, nullptr, true);
-            render::Settings settings = this->settings(paper_method(triangles_name), scene);
-            settings.samples = first_frame_samples;
-            static_cast<void>(render::render(gpu_, *device_scene, settings));
-        });
+        costs.triangle_first_frame =
+            files.read_glb + measure::seconds_of([&] {
+                const auto device_scene = on_device(gpu_, scene.scene, scene.object, nullptr, true);
+                render::Settings settings = this->settings(paper_method(triangles_name), scene);
+                settings.samples = first_frame_samples;
+                static_cast<void>(render::render(gpu_, *device_scene, settings));
+            });
         const Scene rest = without_object(scene);
-        costs.map_first_frame = files.read_spa + measure::seconds_of([&] {
-            const auto device_scene = on_device(gpu_, rest, scene.object, &map, false);
-            render::Settings settings = this->settings(paper_method("projective"), scene);
-            settings.primary = render::Geometry::maps;
-            settings.samples = first_frame_samples;
-            static_cast<void>(render::render(gpu_, *device_scene, settings));
-        });
+        costs.map_first_frame =
+            files.read_spa + measure::seconds_of([&] {
+                const auto device_scene = on_device(gpu_, rest, scene.object, &map, false);
+                render::Settings settings = this->settings(paper_method("projective"), scene);
+                settings.primary = render::Geometry::maps;
+                settings.samples = first_frame_samples;
+                static_cast<void>(render::render(gpu_, *device_scene, settings));
+            });
     }
 
     // How fast secondary rays are on the simplified mesh that is as exact as the map.
-    void run_lod(const PaperScene& scene, const Model& object, const SphericalMap& map, PaperCosts& costs) const {
+    void run_lod(const PaperScene& scene, const Model& object, const SphericalMap& map,
+                 PaperCosts& costs) const {
         const measure::LodPeer equal = measure::lod_peer(object, map.parts.front());
         costs.map_error = equal.map_error;
         if (!equal.lod) return;

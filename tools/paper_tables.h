@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables 1 to 7 of the paper on this device: boots of seven levels of subdivision, each met by every method, with
-// the error of every cell, and what it costs to have the object on the device.
+// Tables 1 to 7 of the paper on this device: boots of seven levels of subdivision, each met by every method,
+// with the error of every cell, and what it costs to have the object on the device.
 #pragma once
 
 #include "paper_methods.h"
@@ -34,7 +34,8 @@ struct PaperCosts {
     double triangle_build_seconds = 0, map_load_seconds = 0;
     double triangle_first_frame = 0, map_first_frame = 0; // from the file to the first frame
     std::uint64_t glb_bytes = 0, spa_bytes = 0;
-    // The simplified mesh whose mean |dt| is that of the map or better: its size, and the rate of secondary rays.
+    // The simplified mesh whose mean |dt| is that of the map or better: its size, and the rate of secondary
+    // rays.
     std::optional<std::uint64_t> lod_triangles;
     double lod_error = 0, map_error = 0; // mean |dt|, R
     double lod_rays_a_second = 0;
@@ -58,8 +59,8 @@ struct PaperTableOptions {
     unsigned runs = 1; // of each frame; times are the medians
     render::Backend backend = render::Backend::query;
     std::function<PaperScene(int level)> scene;
-    // Seconds from a file to what a renderer takes, for the object as a glTF file and as a map; the map has to
-    // live until the next call.
+    // Seconds from a file to what a renderer takes, for the object as a glTF file and as a map; the map has
+    // to live until the next call.
     struct Files {
         std::uint64_t glb_bytes = 0, spa_bytes = 0;
         double read_glb = 0, read_spa = 0;

@@ -32,8 +32,7 @@ LodPeer lod_peer(const Model& model, const Part& part) {
     };
 
     LodPeer result;
-    result.map_error = error_of(
-        *map_method(Family::projective, part, std::uint32_t(part.layers.size()), 0));
+    result.map_error = error_of(*map_method(Family::projective, part, std::uint32_t(part.layers.size()), 0));
     std::vector<double> targets = default_lod_errors();
     for (double& target : targets) target *= part.radius;
     for (Lod& lod : simplify(model.positions, model.normals, model.triangles, targets)) {
