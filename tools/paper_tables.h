@@ -57,7 +57,7 @@ struct PaperTableOptions {
     // On levels above this the reference of this level is used: the boots no longer differ to the eye.
     int reference_level = 4;
     unsigned runs = 1; // of each frame; times are the medians
-    render::Backend backend = render::Backend::query;
+    render::Backend backend = render::Backend::pipeline;
     std::function<PaperScene(int level)> scene;
     // Seconds from a file to what a renderer takes, for the object as a glTF file and as a map; the map has
     // to live until the next call.

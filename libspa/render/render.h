@@ -72,7 +72,7 @@ struct Settings {
     std::uint32_t seed = 1;
     Geometry primary = Geometry::triangles, shadow = Geometry::maps, secondary = Geometry::maps;
     vulkan::TraceConstants tracing; // of maps
-    Backend backend = Backend::query;
+    Backend backend = Backend::pipeline;
 };
 
 // Pictures, row by row from the top. What no primary ray hits: 0, depth infinity.
