@@ -9,6 +9,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace spa::tools {
@@ -67,10 +68,10 @@ render::GpuOptions gpu_options(const RenderArguments& arguments) {
     return options;
 }
 
-import::SceneResult read_scene(const RenderArguments& arguments){
+spa::import::SceneResult read_scene(const RenderArguments& arguments) {
     const SlowStep step("reading " + arguments.scene.filename().string(), arguments.quiet);
-return import::read_scene(arguments.scene);
-} // namespace
+    return import::read_scene(arguments.scene);
+}
 
 void note(const std::string& text) { std::cerr << "spa: note: " << text << '\n'; }
 
@@ -155,14 +156,14 @@ void render_scene(const RenderArguments& arguments) {
     if (arguments.list_devices) return list_devices(arguments);
     const Stopwatch all;
     check_outputs(arguments, {});
-    const InterruptGuard guard;
+    std::optional<InterruptGuard> guard(std::in_place);
     const render::Gpu gpu(gpu_options(arguments));
     std::optional<import::LinearPicture> reference;
     if (!arguments.compare.empty())
         reference = read_reference(arguments.compare, arguments.settings, arguments.fail);
 
     const Stopwatch reading;
-    import::SceneResult source = read_scene(arguments);
+    spa::import::SceneResult source = read_scene(arguments);
     check_outputs(arguments, source.report);
     const std::vector<PlacedMap> maps = place_maps(source.scene, arguments);
     const double read_seconds = reading.seconds();
@@ -181,6 +182,7 @@ void render_scene(const RenderArguments& arguments) {
     facts.scene_times = scene->times();
     facts.read_seconds = read_seconds;
     facts.seconds = all.seconds();
+    guard.reset();
 
     for (const std::string& warning : source.report.warnings)
         std::cerr << "spa: warning: " << warning << '\n';
@@ -188,7 +190,7 @@ void render_scene(const RenderArguments& arguments) {
     judge(facts.comparison, arguments);
 }
 
-} // namespace spa::tools
+} // namespace
 
 Verb render_verb() {
     return {

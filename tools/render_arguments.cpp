@@ -23,7 +23,6 @@ using render::Backend;
 using render::Geometry;
 
 constexpr std::uint32_t max_side = 16384;
-constexpr std::uint32_t max_pixels = 1U << 26U;
 constexpr std::uint32_t max_samples = 1U << 20U;
 constexpr std::uint32_t max_antialias = 1024;
 constexpr std::uint32_t max_test_rays = 1024; // SPA_FAN_LIMIT, SPA_MARCH_LIMIT
@@ -46,9 +45,9 @@ void parse_size(const std::string& text, render::Settings& settings) {
         throw Error(ExitCode::usage, "--size: '" + text + "' is not WIDTHxHEIGHT in pixels, such as 960x540");
     settings.width = parse_number("--size (width)", text.substr(0, cross), 1, max_side);
     settings.height = parse_number("--size (height)", text.substr(cross + 1), 1, max_side);
-    if (settings.height > max_pixels / settings.width)
+    if (settings.height > max_picture_pixels / settings.width)
         throw Error(ExitCode::usage,
-                    "--size: '" + text + "' is more than " + std::to_string(max_pixels) + " pixels");
+                    "--size: '" + text + "' is more than " + std::to_string(max_picture_pixels) + " pixels");
 }
 
 double parse_exposure(const std::string& text) {

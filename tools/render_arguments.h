@@ -20,6 +20,9 @@ const char* name(Backend backend);
 
 namespace spa::tools {
 
+// The most that --size may ask for.
+constexpr std::uint32_t max_picture_pixels = 1U << 26U;
+
 // How maps are traced. sphere: the paper's fan without test rays, which takes what lies straight below the
 // point where the ray meets the sphere.
 enum class MapMethod : std::uint8_t { projective, fan, march, sphere };

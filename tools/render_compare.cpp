@@ -2,6 +2,7 @@
 #include "render_compare.h"
 
 #include "heat.h"
+#include "render_arguments.h"
 #include "render_pictures.h"
 #include "sheet_layout.h"
 #include "text.h"
@@ -66,23 +67,26 @@ Json figure_json(const std::optional<double>& value) {
 
 } // namespace
 
-import::LinearPicture read_reference(const std::filesystem::path& path, const render::Settings& settings,
-                                     const std::vector<ImageLimit>& limits){
+// clang-format takes a line that begins with `import::` for one of a module.
+spa::import::LinearPicture read_reference(const std::filesystem::path& path, const render::Settings& settings,
+                                          const std::vector<ImageLimit>& limits) {
     const std::span<const std::string_view> layers(std::begin(compared_layers) + 1,
                                                    std::end(compared_layers));
-import::LinearPicture reference = import::read_picture(path, layers);
-if (reference.width != settings.width || reference.height != settings.height)
-    throw Error(ExitCode::usage, path.string() + ": has " + size_of(reference.width, reference.height) +
-                                     " pixels, the picture to render " +
-                                     size_of(settings.width, settings.height) + "; give --size " +
-                                     size_of(reference.width, reference.height));
-for (const ImageLimit& limit : limits)
-    if (layer_of(reference, limit.layer) == nullptr)
-        throw Error(ExitCode::usage, "--fail: " + limit_name(limit) + " cannot be judged: " + path.string() +
-                                         " has no layer '" + limit.layer +
-                                         "'; compare with an EXR that spa render wrote");
-return reference;
-} // namespace spa::tools
+    spa::import::Limits most;
+    most.texture_pixels = max_picture_pixels;
+    spa::import::LinearPicture reference = import::read_picture(path, layers, most);
+    if (reference.width != settings.width || reference.height != settings.height)
+        throw Error(ExitCode::usage, path.string() + ": has " + size_of(reference.width, reference.height) +
+                                         " pixels, the picture to render " +
+                                         size_of(settings.width, settings.height) + "; give --size " +
+                                         size_of(reference.width, reference.height));
+    for (const ImageLimit& limit : limits)
+        if (layer_of(reference, limit.layer) == nullptr)
+            throw Error(ExitCode::usage, "--fail: " + limit_name(limit) +
+                                             " cannot be judged: " + path.string() + " has no layer '" +
+                                             limit.layer + "'; compare with an EXR that spa render wrote");
+    return reference;
+}
 
 const LayerComparison& ImageComparison::layer(const std::string& name) const {
     const auto found = std::find_if(layers.begin(), layers.end(),

@@ -18,8 +18,8 @@ namespace spa::tools {
 
 // Reads --compare REF. Throws Error: as import::read_picture; usage if its size is another than the frame's
 // will be, or if it lacks a layer that a limit names.
-import::LinearPicture read_reference(const std::filesystem::path& path, const render::Settings& settings,
-                                     const std::vector<ImageLimit>& limits);
+spa::import::LinearPicture read_reference(const std::filesystem::path& path, const render::Settings& settings,
+                                          const std::vector<ImageLimit>& limits);
 
 struct LayerComparison {
     std::string name; // of compared_layers

@@ -75,6 +75,7 @@ std::size_t text_end(std::span<const std::byte> bytes, std::size_t at) {
 // Magic number and version, then attributes: name, type (texts that end with a zero), length, value. A zero
 // ends them. The data window is two corners, both inside.
 ImageHeader exr_header(std::span<const std::byte> bytes) {
+    using std::string_view_literals::operator""sv;
     constexpr std::size_t box_bytes = 16;
     for (std::size_t at = 8; at < bytes.size() && bytes[at] != std::byte{0};) {
         const std::size_t type = text_end(bytes, at) + 1;
@@ -84,7 +85,7 @@ ImageHeader exr_header(std::span<const std::byte> bytes) {
         const std::uint64_t length = little_endian(bytes, length_at);
         const std::size_t value = length_at + 4;
         if (length > bytes.size() - value) return {};
-        if (starts_with(bytes, {"dataWindow\0box2i", 17}, at) && length == box_bytes) {
+        if (starts_with(bytes, "dataWindow\0box2i\0"sv, at) && length == box_bytes) {
             std::array<std::int64_t, 4> box{};
             for (std::size_t i = 0; i < box.size(); ++i)
                 box[i] = static_cast<std::int32_t>(little_endian(bytes, value + 4 * i));

@@ -118,7 +118,7 @@ TEST_F(LinearPictures, AMissingFileAndNoPicture) {
 }
 
 TEST_F(LinearPictures, TheLimitHolds) {
-    import::Limits limits;
+    spa::import::Limits limits;
     limits.texture_pixels = 11;
     const std::vector<float> values = ramp(12, 1);
     for (const std::string& bytes :

@@ -219,7 +219,7 @@ TEST(RenderPictures, WhatNoRayMetIsBlack) {
 
 TEST(RenderCompare, LayersThatTheReferenceHas) {
     const render::Frame frame = small_frame();
-    import::LinearPicture reference{2, 2, { {"", beauty(frame)}, { "indirect", frame.direct } }};
+    spa::import::LinearPicture reference{2, 2, {{"", beauty(frame)}, {"indirect", frame.direct}}};
     const ImageComparison comparison =
         compare_with(frame, reference, "ref.exr", 0, parse_image_limits("", "relmse=0,indirect.relmse=0.1"));
     ASSERT_EQ(comparison.layers.size(), 2U);
