@@ -69,6 +69,7 @@ std::uint32_t SceneBuilder::add(const std::string& name, const Affine& to_world,
         model.uvs.insert(model.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
     }
     if (!model.uvs.empty()) model.uvs.resize(model.positions.size());
+    if (!model.colors.empty()) model.colors.resize(model.positions.size(), {1, 1, 1, 1});
     for (const Triangle& triangle : mesh.triangles) {
         const auto [a, b, c] = triangle.vertex;
         model.triangles.push_back({{a + first, b + first, c + first}});

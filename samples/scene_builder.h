@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace spa::samples {
 
@@ -16,6 +17,8 @@ Mat3 turn_z(double degrees); // +X towards +Y
 
 class SceneBuilder {
 public:
+    explicit SceneBuilder(Scene scene = {}) : scene_(std::move(scene)) {}
+
     // A node that draws `mesh`, which is in its local space and has materials of its own; one of the name of
     // an earlier one is the earlier one. Returns the node.
     std::uint32_t add(const std::string& name, const Affine& to_world, const Model& mesh,

@@ -40,6 +40,11 @@ const Sample* find_scene(std::string_view name);
 // linear in the number of triangles.
 Scene make_scene(std::string_view name, int level);
 
+// The real Sponza (Crytek's, in centimetres, as import::read_scene gives it) with the boot in its nave as a
+// node "boot", lit from above; cameras "side" and "tip". Throws Error(usage) for a level outside
+// 0..max_level.
+Scene with_boot_in_sponza(Scene sponza, int level);
+
 // The scene as a binary glTF 2.0 file: a mesh for each node that has triangles, in its local space; nodes
 // with names, parents and transforms; cameras; lights by KHR_lights_punctual; materials as to_glb(Model)
 // keeps them. A camera or light hangs on the node of its name and place, or, where there is none, on a new

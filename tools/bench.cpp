@@ -49,6 +49,12 @@ void refuse(const std::string& what, const char* option, bool given) {
     if (given) throw Error(ExitCode::usage, std::string(option) + " is not for 'spa bench " + what + "'");
 }
 
+void refuse_paper_options(const std::string& what, const BenchArguments& given) {
+    refuse(what, "--out", !given.out.empty());
+    refuse(what, "--device", !given.device.empty());
+    refuse(what, "--sponza", !given.sponza.empty());
+}
+
 namespace {
 
 CLI::Option* add_optional(CLI::App& app, const std::string& name, const std::string& value_name,
@@ -154,7 +160,7 @@ Verb bench_verb() {
                 app, "--only", "METHOD,...",
                 "bake: some of radial, embree, orbit, naive; trace: some of fan, march, projective, mesh, "
                 "lod, surface; " WITH_RENDER(
-                    "paper: some of tables, shadows, bleeding, colonnade, sponza; ") "divided by commas",
+                    "paper: some of tables, shadows, bleeding, colonnade; ") "divided by commas",
                 given.only)
                 ->default_str("all that this machine can");
             add_path(app, "--csv", "F.csv", "trace: also write one line a model, method, set and call",

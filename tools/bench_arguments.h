@@ -32,6 +32,8 @@ std::vector<std::uint32_t> parse_numbers(const std::string& option, const std::s
 // Throws Error{usage} if an option was given that `what` does not know.
 void refuse(const std::string& what, const char* option, bool given);
 
+void refuse_paper_options(const std::string& what, const BenchArguments& given);
+
 // A level of the samples, or A..B. Throws Error{usage}.
 std::vector<int> parse_levels(const std::string& text);
 

@@ -87,6 +87,7 @@ Arguments complete(const BenchArguments& given) {
                                            {"--plots", !given.plots.empty()},
                                            {"--quick", given.quick}})
         refuse("bake", option, is_given);
+    refuse_paper_options("bake", given);
     Arguments arguments;
     if (given.levels) set_levels(arguments, *given.levels);
     if (given.sizes) set_sizes(arguments, *given.sizes);

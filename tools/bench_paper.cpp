@@ -17,7 +17,9 @@
 #include "../libspa/measure/stopwatch.h"
 #include "../samples/scenes.h"
 
-#include <fstream>
+#include <functional>
+#include <map>
+#include <utility>
 
 namespace spa::tools {
 namespace {
@@ -30,36 +32,60 @@ std::uint32_t node_named(const Scene& scene, const std::string& name) {
     throw Error(ExitCode::internal, "a scene without a node '" + name + "'");
 }
 
-PaperScene sample_scene(const std::string& name, int level, std::size_t camera = 0,
-                        const std::string& title = "") {
+PaperScene paper_scene(Scene scene, std::size_t camera, const std::string& title) {
     PaperScene result;
-    result.scene = samples::make_scene(name, level);
-    result.title = title.empty() ? name : title;
-    result.object = node_named(result.scene, "boot");
-    result.camera = result.scene.cameras.at(camera);
+    result.object = node_named(scene, "boot");
+    result.camera = scene.cameras.at(camera);
+    result.scene = std::move(scene);
+    result.title = title;
     return result;
 }
 
-PaperFigure corner_figure() {
-    PaperFigure figure{
-        "fig5-colour-bleeding", "Fig. 5: colour bleeding of the boot in a corner of white walls", {}, false};
-    for (const char* const name : {"corner", "corner-b", "corner-c", "corner-d"})
-        figure.scenes.emplace_back([name] { return sample_scene(name, figure_level); });
-    return figure;
-}
+// A scene of the samples: its name, and how it is called in a figure.
+struct SampleScene {
+    const char* name;
+    std::size_t camera;
+    const char* title;
+};
 
-PaperFigure colonnade_figure() {
-    PaperFigure figure{"fig6-colonnade", "Fig. 6: the boot in a colonnade, lit from above", {}, false};
-    figure.scenes.emplace_back(
-        [] { return sample_scene("colonnade", figure_level, 0, "colonnade, from the side"); });
-    figure.scenes.emplace_back(
-        [] { return sample_scene("colonnade-b", figure_level, 1, "colonnade, the tip"); });
+PaperFigure sample_figure(const std::string& file, const std::string& title, bool direct,
+                          std::initializer_list<SampleScene> scenes) {
+    PaperFigure figure{file, title, {}, direct};
+    for (const SampleScene& scene : scenes)
+        figure.scenes.emplace_back([scene] {
+            return paper_scene(samples::make_scene(scene.name, figure_level), scene.camera, scene.title);
+        });
     return figure;
 }
 
 PaperFigure shadow_figure() {
-    PaperFigure figure{"fig4-shadows", "Fig. 4: the boot's shadow on a wall", {}, true};
-    figure.scenes.emplace_back([] { return sample_scene("wall", figure_level); });
+    return sample_figure("fig4-shadows", "Fig. 4: the boot's shadow on a wall", true,
+                         {{"wall", 0, "before a wall"}});
+}
+
+PaperFigure bleeding_figure() {
+    return sample_figure("fig5-colour-bleeding",
+                         "Fig. 5: colour bleeding of the boot in a corner of white walls", false,
+                         {{"corner", 0, "(a, b) at a right angle to the left wall"},
+                          {"corner-b", 0, "(c, d) tip towards the edge"},
+                          {"corner-c", 0, "(e, f) both sides to the walls"},
+                          {"corner-d", 0, "(g, h) one side to the walls"}});
+}
+
+PaperFigure colonnade_figure() {
+    return sample_figure("fig6-colonnade", "Fig. 6: the boot in a colonnade, lit from above", false,
+                         {{"colonnade", 0, "(a, b) from the side"},
+                          {"colonnade-b", 1, "(c, d) the tip, tilted by 20 degrees"}});
+}
+
+PaperFigure sponza_figure(const std::string& file) {
+    PaperFigure figure{"fig6-sponza", "Fig. 6: the boot in the Sponza scene, lit from above", {}, false};
+    const std::pair<std::size_t, const char*> views[] = {{0, "(a, b) from the side"}, {1, "(c, d) the tip"}};
+    for (const auto& [camera, title] : views)
+        figure.scenes.emplace_back([file, camera = camera, title = title] {
+            return paper_scene(samples::with_boot_in_sponza(import::read_scene(file).scene, figure_level),
+                               camera, title);
+        });
     return figure;
 }
 
@@ -95,7 +121,7 @@ struct Arguments {
     PaperTableOptions tables;
     FigureOptions figures;
     std::vector<PaperFigure> chosen;
-    bool with_tables = true;
+    bool with_tables = false;
 };
 
 Arguments complete(const BenchArguments& given) {
@@ -108,25 +134,21 @@ Arguments complete(const BenchArguments& given) {
     Arguments arguments;
     if (given.levels) arguments.tables.levels = parse_levels(*given.levels);
     if (given.runs) arguments.tables.runs = parse_number("--runs", *given.runs, 1, max_runs);
-    arguments.chosen = {shadow_figure(), corner_figure(), colonnade_figure()};
-    if (given.only) {
-        std::vector<PaperFigure> chosen;
-        arguments.with_tables = false;
-        for (const std::string& word : split(*given.only, ',')) {
-            if (word == "tables")
-                arguments.with_tables = true;
-            else if (word == "shadows")
-                chosen.push_back(shadow_figure());
-            else if (word == "bleeding")
-                chosen.push_back(corner_figure());
-            else if (word == "colonnade")
-                chosen.push_back(colonnade_figure());
-            else
-                throw Error(ExitCode::usage,
-                            "--only: '" + word + "' is not one of tables, shadows, bleeding, colonnade");
-        }
-        arguments.chosen = std::move(chosen);
+    const std::map<std::string, std::function<PaperFigure()>> figures{
+        {"shadows", shadow_figure}, {"bleeding", bleeding_figure}, {"colonnade", colonnade_figure}};
+    const std::vector<std::string> words =
+        given.only ? split(*given.only, ',')
+                   : std::vector<std::string>{"shadows", "bleeding", "colonnade", "tables"};
+    for (const std::string& word : words) {
+        if (const auto figure = figures.find(word); figure != figures.end())
+            arguments.chosen.push_back(figure->second());
+        else if (word == "tables")
+            arguments.with_tables = true;
+        else
+            throw Error(ExitCode::usage,
+                        "--only: '" + word + "' is not one of tables, shadows, bleeding, colonnade");
     }
+    if (!given.sponza.empty()) arguments.chosen.push_back(sponza_figure(given.sponza));
     if (given.quick) {
         if (!given.levels) arguments.tables.levels = {0, 2};
         arguments.tables.samples = {8, 32};
@@ -168,7 +190,9 @@ void bench_paper(const BenchArguments& given) {
         }
         if (arguments.with_tables) {
             ProgressReport progress("Tables 1 to 7", given.quiet);
-            arguments.tables.scene = [](int level) { return sample_scene("corner", level); };
+            arguments.tables.scene = [](int level) {
+                return paper_scene(samples::make_scene("corner", level), 0, "corner");
+            };
             arguments.tables.files = Files(folder.temporary_path());
             arguments.tables.progress = [&](double share, const std::string&) {
                 progress.update(share);

@@ -58,6 +58,7 @@ void make_quick(Arguments& arguments) {
 }
 
 Arguments complete(const BenchArguments& given) {
+    refuse_paper_options("trace", given);
     refuse("trace", "--levels", given.levels.has_value());
     Arguments arguments;
     measure::TraceBenchOptions& bench = arguments.bench;

@@ -8,6 +8,7 @@
 #include "../libspa/bake/crossings.h"
 #include "../libspa/measure/image_errors.h"
 
+#include <algorithm>
 #include <array>
 
 namespace spa::tools {
@@ -15,7 +16,8 @@ namespace {
 
 constexpr std::array<const char*, 6> columns{triangles_name, "fan 1",  "fan 3",
                                              "fan 5",        "fan 10", "projective"};
-constexpr double indirect_exposure = 1; // stops: it is a fraction of the light
+constexpr std::uint32_t least_cell_width = 320; // what the labels need
+constexpr double indirect_exposure = 1;         // stops: it is a fraction of the light
 
 measure::ImageRef picture(const render::Frame& frame, const std::vector<Vec3f>& pixels) {
     return {frame.width, frame.height, pixels};
@@ -26,13 +28,13 @@ public:
     Figure(const render::Gpu& gpu, const PaperFigure& figure, const FigureOptions& options,
            std::vector<FigureError>& errors)
         : gpu_(gpu), figure_(figure), options_(options), errors_(errors), scale_(2 * figure.scenes.size()) {
-        scale_.cell_width = options.width;
+        scale_.cell_width = std::max(options.width, least_cell_width);
     }
 
     Picture draw() {
         for (const auto& scene : figure_.scenes) add_scene(scene());
         SheetLegend legend;
-        legend.text("relMSE of the " + light_name() + " against triangles with the same directions");
+        legend.text("relMSE: of the " + light_name() + " against triangles with the same directions. ");
         legend.text(std::to_string(options_.samples) + " secondary rays a pixel");
         return lay_out_sheet(figure_.title, legend, rows_, scale_);
     }
@@ -47,7 +49,7 @@ private:
 
     void add_scene(const PaperScene& scene) {
         SheetRow& pictures = rows_.emplace_back(SheetRow{scene.title, {}});
-        SheetRow lights{scene.title + ", " + light_name() + (figure_.direct ? "" : " alone, brightened"), {}};
+        SheetRow lights{light_name() + " alone" + (figure_.direct ? "" : ", twice as bright"), {}};
         render::Frame truth;
         const Model object = object_model(scene);
         for (const MapKind kind : {MapKind::none, MapKind::paper, MapKind::one_layer}) {

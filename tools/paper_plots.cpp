@@ -47,7 +47,8 @@ std::string frames_script(const PaperTables& tables) {
             if (series.contains(styles[i].method))
                 text += block("p" + std::to_string(samples) + "_" + std::to_string(i),
                               series.at(styles[i].method));
-    text += "set multiplot layout 2,2 title 'Frames a second against vertices of the boot'\nset logscale xy\n"
+    text += std::string("set multiplot layout ") + (panels.size() > 2 ? "2,2" : "1,2") +
+            " title 'Frames a second against vertices of the boot'\nset logscale xy\n"
             "set xlabel 'vertices'\nset ylabel 'frames a second'\nset key outside right\n";
     for (const auto& [samples, series] : panels) {
         text += "set title '" + std::to_string(samples) + " secondary rays a pixel'\nplot ";
