@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "samples.h"
+#include "scenes.h"
 
 #include "../libspa/core/error.h"
 
@@ -9,9 +10,10 @@
 
 namespace spa::samples {
 
-void write_glb(const Model& model, const std::filesystem::path& path) {
+namespace {
+
+void write(const std::vector<std::byte>& bytes, const std::filesystem::path& path) {
     namespace fs = std::filesystem;
-    const std::vector<std::byte> bytes = to_glb(model);
     const auto fail = [&](int error_number) {
         std::error_code ignored;
         fs::remove(path.string() + ".part", ignored);
@@ -27,5 +29,10 @@ void write_glb(const Model& model, const std::filesystem::path& path) {
     fs::rename(temporary, path, error);
     if (error) fail(error.value());
 }
+
+} // namespace
+
+void write_glb(const Model& model, const std::filesystem::path& path) { write(to_glb(model), path); }
+void write_glb(const Scene& scene, const std::filesystem::path& path) { write(to_glb(scene), path); }
 
 } // namespace spa::samples

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // read_gltf: 1. split the container, 2. check the document, 3. read the buffers, 4. let tinygltf build its
-// model of the rest, 5. flatten the scene, 6. append every primitive of every instance.
+// model of the rest, 5. flatten the scene, 6. append every primitive of every instance. read_gltf_scene reads
+// the cameras and lights after 2 and adds them and the nodes after 6.
 //
-// tinygltf gets the document without buffers, images and what a bake has no use for: their bytes stay where
-// they were read to, nothing is copied, and no reference is opened but by Buffers and Images.
+// tinygltf gets the document without buffers, images and what we read ourselves or have no use for: their
+// bytes stay where they were read to, nothing is copied, and no reference is opened but by Buffers and
+// Images.
 #include "gltf_check.h"
 #include "gltf_check_values.h"
 #include "gltf_container.h"
 #include "gltf_primitive.h"
+#include "gltf_scene_parts.h"
 #include "readers.h"
 
 #include <limits>
@@ -118,9 +121,18 @@ std::string nothing_to_bake(const tinygltf::Model& model, const std::vector<Inst
     return why;
 }
 
+// What is read; `scene` is null where only the model is wanted.
+struct Target {
+    Model& model;
+    Scene* scene = nullptr;
+};
+
 void assemble(const tinygltf::Model& model, Buffers& buffers, Images& images, const Context& context,
-              Model& out) {
-    const std::vector<Instance> instances = flatten_scene(model, buffers, context);
+              const Target& target, const SceneParts& parts) {
+    Model& out = target.model;
+    std::vector<Place> places;
+    const std::vector<Instance> instances =
+        flatten_scene(model, buffers, context, target.scene != nullptr ? &places : nullptr);
     const Size total = total_size(model, instances, context);
     std::vector<bool> used(model.materials.size());
     bool any_colors = false;
@@ -148,6 +160,8 @@ void assemble(const tinygltf::Model& model, Buffers& buffers, Images& images, co
             else
                 ++context.report.ignored_primitives;
         }
+        if (target.scene != nullptr)
+            target.scene->triangle_nodes.resize(out.triangles.size(), instance.place);
     }
     if (context.report.dropped_non_finite != 0)
         warn(context, "",
@@ -158,22 +172,25 @@ void assemble(const tinygltf::Model& model, Buffers& buffers, Images& images, co
     if (!out.uvs.empty()) out.uvs.resize(out.positions.size());
     if (!out.colors.empty()) out.colors.resize(out.positions.size(), {1, 1, 1, 1});
     if (out.materials.empty()) (void)materials.default_material();
+    if (target.scene != nullptr) fill_scene(model, places, parts, *target.scene, context);
 }
 
-void read(const std::filesystem::path& path, const Limits& limits, Result& result) {
-    const Context context{path, limits, result.report};
+void read(const Context& context, const Target& target) {
+    const auto& [path, limits, report] = context;
     const std::vector<std::byte> file = read_file(path, limits);
-    add_source(result.report, path.filename().string(), file);
+    add_source(report, path.filename().string(), file);
     const Container container = split_container(file, context);
-    result.report.format = container.binary ? "GLB" : "glTF";
+    report.format = container.binary ? "GLB" : "glTF";
     Json document = parse_json(container.json, context);
     check_document(document, context);
+    SceneParts parts;
+    if (target.scene != nullptr) parts = read_scene_parts(document, context);
     Buffers buffers(document, container, context);
     Images images(document, buffers, context);
     const tinygltf::Model model = build_model(document, context);
     std::optional<Error> error;
     try {
-        assemble(model, buffers, images, context, result.model);
+        assemble(model, buffers, images, context, target, parts);
     } catch (const Error& caught) {
         error = caught;
     }
@@ -185,22 +202,33 @@ void read(const std::filesystem::path& path, const Limits& limits, Result& resul
     if (error) throw Error(*error);
 }
 
+void read_with_causes(const Context& context, const Target& target) {
+    try {
+        read(context, target);
+    } catch (const Error& error) {
+        // What was noticed on the way is often the cause.
+        const std::vector<std::string>& warnings = context.report.warnings;
+        if (error.code() != ExitCode::invalid_data || warnings.empty()) throw;
+        std::string message = error.what();
+        constexpr std::size_t most = 4;
+        for (std::size_t i = 0; i < warnings.size() && i < most; ++i)
+            message += (i == 0 ? " (also: " : "; ") + warnings[i];
+        throw Error(error.code(), message + ")");
+    }
+}
+
 } // namespace
 } // namespace gltf
 
 Result read_gltf(const std::filesystem::path& path, const Limits& limits) {
     Result result;
-    try {
-        gltf::read(path, limits, result);
-    } catch (const Error& error) {
-        // What was noticed on the way is often the cause.
-        if (error.code() != ExitCode::invalid_data || result.report.warnings.empty()) throw;
-        std::string message = error.what();
-        constexpr std::size_t most = 4;
-        for (std::size_t i = 0; i < result.report.warnings.size() && i < most; ++i)
-            message += (i == 0 ? " (also: " : "; ") + result.report.warnings[i];
-        throw Error(error.code(), message + ")");
-    }
+    gltf::read_with_causes({path, limits, result.report}, {result.model});
+    return result;
+}
+
+SceneResult read_gltf_scene(const std::filesystem::path& path, const Limits& limits) {
+    SceneResult result;
+    gltf::read_with_causes({path, limits, result.report}, {result.scene.model, &result.scene});
     return result;
 }
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf_scene.h"
 
+#include "readers.h"
+
 #include <algorithm>
 #include <array>
 
 namespace spa::import::gltf {
 namespace {
-
-// What shared children and instancing may multiply a hierarchy to.
-constexpr std::size_t max_visits = std::size_t{1} << 20U;
 
 struct Quaternion {
     double x = 0, y = 0, z = 0, w = 1;
@@ -112,40 +111,46 @@ std::vector<std::size_t> roots_of(const tinygltf::Model& model) {
 
 } // namespace
 
-std::vector<Instance> flatten_scene(const tinygltf::Model& model, Buffers& buffers, const Context& context) {
-    struct Visit {
-        std::size_t node = 0;
-        Affine world;
+std::vector<Instance> flatten_scene(const tinygltf::Model& model, Buffers& buffers, const Context& context,
+                                    std::vector<Place>* places) {
+    std::vector<Place> stack;
+    const auto push = [&](std::size_t node, std::uint32_t parent, const Affine& world) {
+        stack.push_back({node, parent, world * local_transform(model.nodes[node])});
     };
-    std::vector<Visit> stack;
-    const auto push = [&](std::size_t node, const Affine& parent) {
-        stack.push_back({node, parent * local_transform(model.nodes[node])});
+    // The number of the place; 0 if nobody wants them.
+    const auto note = [&](const Place& place) {
+        if (places == nullptr) return std::uint32_t{0};
+        places->push_back(place);
+        return static_cast<std::uint32_t>(places->size() - 1);
     };
     const std::vector<std::size_t> roots = roots_of(model);
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root) push(*root, {});
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) push(*root, no_index, {});
 
     std::vector<Instance> instances;
     std::size_t visits = 0;
     while (!stack.empty()) {
-        const Visit visit = stack.back();
+        const Place visit = stack.back();
         stack.pop_back();
+        const std::uint32_t own = note(visit);
         const tinygltf::Node& node = model.nodes[visit.node];
         ++visits;
         if (node.mesh >= 0) {
             const auto extension = node.extensions.find("EXT_mesh_gpu_instancing");
             if (extension == node.extensions.end()) {
-                instances.push_back({visit.node, visit.world});
+                instances.push_back({visit.node, visit.world, own});
             } else {
-                for (const Affine& local : gpu_instances(model, extension->second, buffers, context))
-                    instances.push_back({visit.node, visit.world * local});
+                for (const Affine& local : gpu_instances(model, extension->second, buffers, context)) {
+                    const Affine world = visit.world * local;
+                    instances.push_back({visit.node, world, note({visit.node, own, world, true})});
+                }
             }
         }
-        if (visits + stack.size() + instances.size() > max_visits)
+        if (visits + stack.size() + instances.size() > max_nodes)
             fail(context, "nodes",
-                 "shared children and instances multiply to more than " + std::to_string(max_visits) +
+                 "shared children and instances multiply to more than " + std::to_string(max_nodes) +
                      " drawings");
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-            push(static_cast<std::size_t>(*child), visit.world);
+            push(static_cast<std::size_t>(*child), own, visit.world);
     }
     return instances;
 }

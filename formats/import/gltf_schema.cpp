@@ -147,4 +147,8 @@ void check_schema(Json& document, const Context& context) {
     Checker(document, context).check_object(document, root, "");
 }
 
+void check_scene_schema(Json& document, const Context& context) {
+    Checker(document, context).check_object(document, scene_root, "");
+}
+
 } // namespace spa::import::gltf

@@ -19,4 +19,8 @@ bool is_one_of(std::string_view words, std::string_view word);
 // as 1.0 become integers. Throws Error(invalid_data) with the place of the first defect.
 void check_schema(Json& document, const Context& context);
 
+// The same for cameras and KHR_lights_punctual, which only a scene needs; the document passed check_schema.
+// The indices of lights remain to be checked.
+void check_scene_schema(Json& document, const Context& context);
+
 } // namespace spa::import::gltf

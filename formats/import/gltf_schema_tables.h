@@ -238,6 +238,39 @@ inline constexpr Property animation_sampler[] = {
     {"interpolation", Kind::string, "LINEAR STEP CUBICSPLINE"},
 };
 
+// Of what only a scene needs: the same objects again, with more known of them.
+inline constexpr Property scene_root[] = {
+    {"cameras", Kind::object, "scene camera", optional, some},
+    {"nodes", Kind::object, "lit node", optional, some},
+    {"extensions", Kind::object, "root.extensions"},
+};
+inline constexpr Property scene_camera[] = {
+    {"type", Kind::string, "perspective orthographic", required},
+    {"perspective", Kind::object, "perspective"},
+};
+inline constexpr Property perspective[] = {
+    {"yfov", Kind::number, "", required},
+    {"aspectRatio", Kind::number},
+    {"znear", Kind::number},
+    {"zfar", Kind::number},
+};
+inline constexpr Property root_extensions[] = {{"KHR_lights_punctual", Kind::object, "punctual lights"}};
+inline constexpr Property punctual_lights[] = {{"lights", Kind::object, "light", optional, some}};
+inline constexpr Property light[] = {
+    {"type", Kind::string, "directional point spot", required},
+    {"color", Kind::number, "", optional, {3, 3}},
+    {"intensity", Kind::number},
+    {"range", Kind::number},
+    {"spot", Kind::object, "light.spot"},
+};
+inline constexpr Property light_spot[] = {
+    {"innerConeAngle", Kind::number},
+    {"outerConeAngle", Kind::number},
+};
+inline constexpr Property lit_node[] = {{"extensions", Kind::object, "lit node.extensions"}};
+inline constexpr Property lit_node_extensions[] = {{"KHR_lights_punctual", Kind::object, "node light"}};
+inline constexpr Property node_light[] = {{"light", Kind::integer, "", required}};
+
 inline constexpr Schema schemas[] = {
     {"asset", asset},
     {"buffer", buffer},
@@ -276,6 +309,15 @@ inline constexpr Schema schemas[] = {
     {"channel", channel},
     {"channel target", channel_target},
     {"animation sampler", animation_sampler},
+    {"scene camera", scene_camera},
+    {"perspective", perspective},
+    {"root.extensions", root_extensions},
+    {"punctual lights", punctual_lights},
+    {"light", light},
+    {"light.spot", light_spot},
+    {"lit node", lit_node},
+    {"lit node.extensions", lit_node_extensions},
+    {"node light", node_light},
 };
 
 // Every object of glTF may have these.

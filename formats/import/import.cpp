@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <string_view>
+#include <utility>
 
 namespace spa::import {
 namespace {
@@ -69,9 +70,7 @@ Reader reader_by_extension(const std::filesystem::path& path) {
     return nullptr;
 }
 
-} // namespace
-
-Result read_model(const std::filesystem::path& path, const Limits& limits) {
+Reader find_reader(const std::filesystem::path& path) {
     std::error_code code;
     const std::filesystem::file_status status = std::filesystem::status(path, code);
     if (!std::filesystem::exists(status))
@@ -92,7 +91,26 @@ Result read_model(const std::filesystem::path& path, const Limits& limits) {
     if (reader == nullptr)
         throw Error(ExitCode::invalid_data, path.string() + ": neither the content nor the extension is that "
                                                             "of glTF, GLB, OBJ, PLY, STL or OFF");
-    return reader(path, limits);
+    return reader;
+}
+
+} // namespace
+
+Result read_model(const std::filesystem::path& path, const Limits& limits) {
+    return find_reader(path)(path, limits);
+}
+
+SceneResult read_scene(const std::filesystem::path& path, const Limits& limits) {
+    const Reader reader = find_reader(path);
+    if (reader == read_gltf) return read_gltf_scene(path, limits);
+    if (reader == read_obj) return read_obj_scene(path, limits);
+    Result read = reader(path, limits);
+    SceneResult result;
+    result.report = std::move(read.report);
+    result.scene.model = std::move(read.model);
+    result.scene.nodes.push_back({path.stem().string(), no_index, {}});
+    result.scene.triangle_nodes.assign(result.scene.model.triangles.size(), 0);
+    return result;
 }
 
 } // namespace spa::import

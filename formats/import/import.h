@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads an asset file into a Model. Safe for untrusted input: limits before allocation, no crash, no hang,
-// no silent loss.
+// Reads an asset file into a Model, or into a Scene with nodes, cameras and lights. Safe for untrusted input:
+// limits before allocation, no crash, no hang, no silent loss.
 #pragma once
 
-#include "../../libspa/mesh/model.h"
+#include "../../libspa/mesh/scene.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -49,5 +49,25 @@ struct Result {
 // unknown required extension: by name). Every message starts with the path.
 // Deterministic. Time and memory linear in the size of the files and of the flattened model.
 Result read_model(const std::filesystem::path& path, const Limits& limits = {});
+
+struct SceneResult {
+    Scene scene; // scene.model and the warnings about it are those of read_model
+    Report report;
+};
+
+// Reads a scene: as read_model does, and which node every triangle belongs to, and
+// - of glTF the nodes of the scene (a node with several parents once below each; EXT_mesh_gpu_instancing
+// makes
+//   the node a nameless one and each instance a node of its name below), the perspective cameras, and the
+//   lights of KHR_lights_punctual. A camera or light without a name has its node's. Skinned meshes stand
+//   where their joints are, not where their node is. Orthographic cameras and the range of lights are left
+//   out, with warnings. All nodes have finite transforms; no camera is flat.
+// - of OBJ a node for each object (o) and, below it, for each group (g) that has faces, not moved; faces
+// before
+//   any belong to a node named after the file, without its extension.
+// - of all others that node alone.
+// Throws Error(invalid_data) too where a camera or a light breaks the rules of glTF (scene.h names the
+// ranges), and for more than 2^20 nodes or 64 MiB of names.
+SceneResult read_scene(const std::filesystem::path& path, const Limits& limits = {});
 
 } // namespace spa::import

@@ -5,14 +5,15 @@
 // OpenMesh drops faces that make its mesh non-manifold.
 //
 // Read: v (with colours: x y z r g b, or x y z w r g b), vt, vn, f (and its old name fo) with absolute and
-// relative indices and any number of corners, usemtl, mtllib, line continuations. Counted: p and l. Passed
-// over: names, groups and smoothing groups (without vn, the crease angle decides); display settings;
-// subdivision tags. Free-form curves and surfaces and unknown statements: passed over with a warning. A
-// number in a v, vt or vn that cannot be read is undefined (NaN), and the faces that use it are dropped, with
-// warnings; a wrong face is an error.
+// relative indices and any number of corners, usemtl, mtllib, line continuations. Counted: p and l. Names
+// of objects and groups make the nodes of a scene. Passed over: smoothing groups (without vn, the crease
+// angle decides); display settings; subdivision tags. Free-form curves and surfaces and unknown statements:
+// passed over with a warning. A number in a v, vt or vn that cannot be read is undefined (NaN), and the faces
+// that use it are dropped, with warnings; a wrong face is an error.
 #include "readers.h"
 
 #include "obj_materials.h"
+#include "obj_nodes.h"
 #include "polygon_soup.h"
 #include "source_file.h"
 #include "text.h"
@@ -68,8 +69,9 @@ std::string_view strip_comment(std::string_view line) {
 
 class ObjParser {
 public:
-    ObjParser(const std::filesystem::path& path, const Limits& limits, Report& report)
-        : path_(path), limits_(limits), report_(report), materials_(path, limits, report) {}
+    // nodes: where objects and groups are kept; null where nobody asks for them.
+    ObjParser(const std::filesystem::path& path, const Limits& limits, Report& report, ObjNodes* nodes)
+        : path_(path), limits_(limits), report_(report), materials_(path, limits, report), nodes_(nodes) {}
 
     PolygonSoup parse(std::string_view text) {
         ObjLines lines;
@@ -103,6 +105,10 @@ private:
             use_material(rest);
         else if (keyword == "mtllib")
             materials_.read_libraries(rest, line_);
+        else if (nodes_ != nullptr && keyword == "o")
+            nodes_->begin_object(rest);
+        else if (nodes_ != nullptr && keyword == "g")
+            nodes_->begin_group(rest);
         else if (contains(free_form, keyword))
             note(free_form_, keyword);
         else if (!contains(passed_over, keyword))
@@ -152,6 +158,7 @@ private:
             soup_.corners.push_back(corner(token));
         if (count < 3)
             fail(path_, line_, "a face needs at least three vertices, here are " + std::to_string(count));
+        if (nodes_ != nullptr) nodes_->add_polygon(soup_);
         soup_.polygons.push_back({count, material_});
         lines_.push_back(line_);
     }
@@ -298,6 +305,7 @@ private:
     const Limits& limits_;
     Report& report_;
     ObjMaterials materials_;
+    ObjNodes* nodes_;
     PolygonSoup soup_;
     std::vector<Vec2f> uvs_;             // as in the file
     std::vector<std::size_t> lines_;     // of the polygons
@@ -315,8 +323,20 @@ Result read_obj(const std::filesystem::path& path, const Limits& limits) {
     Result result;
     result.report.format = "OBJ";
     add_source(result.report, path.filename().string(), bytes);
-    PolygonSoup soup = ObjParser(path, limits, result.report).parse(as_text(bytes));
+    PolygonSoup soup = ObjParser(path, limits, result.report, nullptr).parse(as_text(bytes));
     result.model = to_model(std::move(soup), path, limits, result.report);
+    return result;
+}
+
+SceneResult read_obj_scene(const std::filesystem::path& path, const Limits& limits) {
+    const std::vector<std::byte> bytes = read_file(path, limits);
+    SceneResult result;
+    result.report.format = "OBJ";
+    add_source(result.report, path.filename().string(), bytes);
+    ObjNodes nodes(path);
+    PolygonSoup soup = ObjParser(path, limits, result.report, &nodes).parse(as_text(bytes));
+    result.scene.model = to_model(std::move(soup), path, limits, result.report, &result.scene.triangle_nodes);
+    result.scene.nodes = nodes.take();
     return result;
 }
 

@@ -27,6 +27,7 @@ using CornerTriangle = std::array<std::uint32_t, 3>;
 struct Cut {
     std::vector<CornerTriangle> triangles;
     std::vector<std::uint32_t> materials;
+    std::vector<std::size_t> run_ends; // how many triangles there are when each run ends
     std::uint64_t crossing_polygons = 0;
 };
 
@@ -54,6 +55,9 @@ Cut cut_polygons(const PolygonSoup& soup, Report& report) {
     std::vector<std::array<std::uint32_t, 3>> pieces;
     std::size_t first = 0;
     for (const Polygon& polygon : soup.polygons) {
+        const auto number = static_cast<std::size_t>(&polygon - soup.polygons.data());
+        if (cut.run_ends.size() + 1 < soup.runs.size() && number == soup.runs[cut.run_ends.size() + 1].first)
+            cut.run_ends.push_back(cut.triangles.size());
         points.clear();
         for (std::size_t c = first; c < first + polygon.corners; ++c)
             points.push_back(soup.positions[soup.corners[c].position]);
@@ -76,6 +80,7 @@ Cut cut_polygons(const PolygonSoup& soup, Report& report) {
         }
         first += polygon.corners;
     }
+    cut.run_ends.push_back(cut.triangles.size());
     return cut;
 }
 
@@ -182,7 +187,8 @@ void check_vertex_count(std::uint64_t count, const std::filesystem::path& path, 
                        " vertices allowed; simplify the mesh or raise the limit");
 }
 
-Model to_model(PolygonSoup soup, const std::filesystem::path& path, const Limits& limits, Report& report) {
+Model to_model(PolygonSoup soup, const std::filesystem::path& path, const Limits& limits, Report& report,
+               std::vector<std::uint32_t>* triangle_nodes) {
     check_triangle_count(soup, path, limits);
     Cut cut = cut_polygons(soup, report);
     if (cut.triangles.empty()) {
@@ -203,6 +209,9 @@ Model to_model(PolygonSoup soup, const std::filesystem::path& path, const Limits
     check_vertex_count(model.positions.size(), path, limits);
     warn_of(cut, repairs, report);
     model.triangle_materials = std::move(cut.materials);
+    if (triangle_nodes != nullptr)
+        for (std::size_t run = 0; run < soup.runs.size(); ++run)
+            triangle_nodes->resize(cut.run_ends[run], soup.runs[run].node);
     model.materials = std::move(soup.materials);
     model.textures = std::move(soup.textures);
     report.computed_normals =

@@ -5,6 +5,7 @@
 
 #include "import.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -25,6 +26,12 @@ struct Polygon {
     std::uint32_t material = 0;
 };
 
+// The polygons from one on, up to the next run, belong to a node.
+struct PolygonRun {
+    std::size_t first = 0;
+    std::uint32_t node = 0;
+};
+
 struct PolygonSoup {
     std::vector<Vec3f> positions; // may hold NaN and infinities, like the other arrays
     std::vector<Vec2f> uvs;       // v grows downwards, as in Model
@@ -32,6 +39,7 @@ struct PolygonSoup {
     std::vector<Vec4f> colors;    // linear
     std::vector<PolygonCorner> corners;
     std::vector<Polygon> polygons;
+    std::vector<PolygonRun> runs;    // in the order of the polygons; empty where nobody asks for nodes
     std::vector<Material> materials; // at least one
     std::vector<Texture> textures;
 };
@@ -50,7 +58,9 @@ void check_vertex_count(std::uint64_t count, const std::filesystem::path& path, 
 // area, makes one vertex of equal corners, normalises the normals and computes the missing ones. Vertices are
 // ordered by position, then uv, normal and colour index; triangles keep the order of the file. Warns in
 // `report` of what was dropped or repaired. Throws Error(invalid_data) when nothing is left or a limit is
-// exceeded. O(n log n) time, linear memory.
-Model to_model(PolygonSoup soup, const std::filesystem::path& path, const Limits& limits, Report& report);
+// exceeded. O(n log n) time, linear memory. `triangle_nodes`, if given, gets the node of each triangle by the
+// runs, of which the first begins with the first polygon.
+Model to_model(PolygonSoup soup, const std::filesystem::path& path, const Limits& limits, Report& report,
+               std::vector<std::uint32_t>* triangle_nodes = nullptr);
 
 } // namespace spa::import

@@ -19,6 +19,11 @@ constexpr Vec3d transform_point(const Affine& map, Vec3d point) {
 // A difference of points: the translation does not count.
 constexpr Vec3d transform_vector(const Affine& map, Vec3d vector) { return map.linear * vector; }
 
+inline bool is_finite(const Affine& map) {
+    return is_finite(map.translation) && is_finite(map.linear.row[0]) && is_finite(map.linear.row[1]) &&
+           is_finite(map.linear.row[2]);
+}
+
 // First b, then a.
 constexpr Affine operator*(const Affine& a, const Affine& b) {
     return {a.linear * b.linear, transform_point(a, b.translation)};

@@ -54,7 +54,7 @@ struct Light {
 struct Scene {
     Model model;                               // the triangles of all nodes
     std::vector<std::uint32_t> triangle_nodes; // one entry a triangle: index into nodes
-    std::vector<SceneNode> nodes;              // no loops
+    std::vector<SceneNode> nodes;              // each parent before its children
     std::vector<Camera> cameras;
     std::vector<Light> lights;
 };

@@ -2,7 +2,7 @@
 #include "process.h"
 #include "schema.h"
 
-#include "../../samples/samples.h"
+#include "../../samples/scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,10 @@ namespace {
 
 TEST(SampleVerb, WritesEverySample) {
     const TemporaryFolder folder;
-    for (const samples::Sample& sample : samples::list()) {
-        const std::string name(sample.name);
+    std::vector<std::string> names;
+    for (const auto& list : {samples::list(), samples::list_scenes()})
+        for (const samples::Sample& sample : list) names.emplace_back(sample.name);
+    for (const std::string& name : names) {
         const Outcome outcome =
             run_spa({"sample", name, "--level", "0", "-o", name + ".glb", "--format", "json"}, folder.path());
         ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -32,6 +34,14 @@ TEST(SampleVerb, BootHasThePapersVertices) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(nlohmann::json::parse(outcome.out)["vertices"], 5233);
     EXPECT_EQ(folder.names(), std::vector<std::string>{"boot.glb"});
+}
+
+TEST(SampleVerb, ScenesAreListed) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run_spa({"help", "sample"}, folder.path());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    for (const samples::Sample& scene : samples::list_scenes())
+        EXPECT_NE(outcome.out.find(" " + std::string(scene.name) + ": "), std::string::npos) << outcome.out;
 }
 
 TEST(SampleVerb, TextNamesTheFile) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files damaged at random (with fixed seeds) never crash, hang or give a broken model. CI runs this under
 // AddressSanitizer and UndefinedBehaviorSanitizer.
-#include "gltf_builder.h"
+#include "scene_builder.h"
 
 #include "../../formats/import/source_file.h"
 #include "../../formats/import/texture.h"
@@ -16,22 +16,34 @@
 namespace spa::test {
 namespace {
 
+using import::Limits;
+
 constexpr std::uintmax_t largest_file = 64 * 1024;
 
 struct Outcomes {
     std::size_t imported = 0, refused = 0;
 };
 
-import::Limits tight_limits(){import::Limits limits;
-limits.vertices = limits.triangles = limits.texture_pixels = 1U << 20U;
-return limits;
-} // namespace
+Limits tight_limits() {
+    Limits limits;
+    limits.vertices = limits.triangles = limits.texture_pixels = 1U << 20U;
+    return limits;
+}
+
+using Reader = void (*)(const std::filesystem::path& path); // expects what it reads to be valid
+
+void check_model(const std::filesystem::path& path) {
+    expect_valid(import::read_model(path, tight_limits()));
+}
+void check_scene(const std::filesystem::path& path) {
+    expect_valid(import::read_scene(path, tight_limits()));
+}
 
 void import_damaged(const Scratch& scratch, const std::string& name, const std::string& bytes,
-                    Outcomes& outcomes) {
+                    Outcomes& outcomes, Reader reader = check_model) {
     const std::filesystem::path path = scratch.write(name, bytes);
     try {
-        expect_valid(import::read_model(path, tight_limits()));
+        reader(path);
         ++outcomes.imported;
     } catch (const Error& error) {
         // unsupported: damage can make up the name of an extension.
@@ -134,6 +146,22 @@ TEST(GltfDamage, Pictures) {
     EXPECT_GT(outcomes.refused, 100U);
 }
 
+void damage_document(const GltfBuilder& builder, unsigned seed, Reader reader) {
+    const Scratch scratch;
+    std::mt19937 random(seed);
+    Outcomes outcomes;
+    for (const bool binary : {true, false}) {
+        const std::string bytes = binary ? builder.glb() : builder.text();
+        import_damaged(scratch, "a.glb", bytes, outcomes, reader);
+        EXPECT_EQ(outcomes.imported, 1U);
+        for (int round = 0; round < 3000; ++round)
+            import_damaged(scratch, "a.glb", damage(bytes, random), outcomes, reader);
+        EXPECT_GT(outcomes.imported, 100U);
+        EXPECT_GT(outcomes.refused, 100U);
+        outcomes = {};
+    }
+}
+
 // A document with everything in it, cut and damaged more often.
 TEST(GltfDamage, HandMadeDocument) {
     GltfBuilder builder = triangle();
@@ -159,20 +187,26 @@ TEST(GltfDamage, HandMadeDocument) {
     primitive["material"] = 0;
     builder.json["materials"] = {
         {{"alphaMode", "MASK"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}}}}};
-    const Scratch scratch;
-    std::mt19937 random(20240523);
-    Outcomes outcomes;
-    for (const bool binary : {true, false}) {
-        const std::string bytes = binary ? builder.glb() : builder.text();
-        import_damaged(scratch, "a.glb", bytes, outcomes);
-        EXPECT_EQ(outcomes.imported, 1U);
-        for (int round = 0; round < 3000; ++round)
-            import_damaged(scratch, "a.glb", damage(bytes, random), outcomes);
-        EXPECT_GT(outcomes.imported, 100U);
-        EXPECT_GT(outcomes.refused, 100U);
-        outcomes = {};
-    }
+    damage_document(builder, 20240523, check_model);
 }
 
-} // namespace spa::test
+// Little but what only a scene has.
+TEST(GltfDamage, HandMadeScene) {
+    GltfBuilder builder = lit_triangle({{"type", "spot"},
+                                        {"name", "lamp"},
+                                        {"color", {1, 0.5, 0.2}},
+                                        {"intensity", 30},
+                                        {"range", 9},
+                                        {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.7}}}});
+    builder.json["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}, {"aspectRatio", 1.5}}}},
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 1}}}}};
+    builder.json["nodes"][1]["camera"] = 0;
+    builder.json["nodes"][1]["rotation"] = {0, 0, 0, 1};
+    builder.json["nodes"].push_back({{"camera", 1}, {"scale", {2, 2, 2}}, {"children", {1}}});
+    builder.json["scenes"][0]["nodes"] = {0, 2};
+    damage_document(builder, 20240524, check_scene);
+}
+
+} // namespace
 } // namespace spa::test

@@ -98,19 +98,20 @@ std::string base64(std::string_view bytes) {
     return out;
 }
 
-import::Result import_both(const GltfBuilder& builder){const Scratch scratch;
-const import::Result binary = scratch.read("a.glb", builder.glb());
-const import::Result text = scratch.read("a.gltf", builder.text());
-expect_valid(binary);
-EXPECT_EQ(binary.report.format, "GLB");
-EXPECT_EQ(text.report.format, "glTF");
-EXPECT_EQ(binary.model.positions, text.model.positions);
-EXPECT_EQ(binary.model.normals, text.model.normals);
-EXPECT_EQ(binary.model.uvs, text.model.uvs);
-EXPECT_EQ(binary.model.colors, text.model.colors);
-EXPECT_EQ(binary.report.warnings, text.report.warnings);
-return binary;
-} // namespace spa::test
+Result import_both(const GltfBuilder& builder) {
+    const Scratch scratch;
+    const import::Result binary = scratch.read("a.glb", builder.glb());
+    const import::Result text = scratch.read("a.gltf", builder.text());
+    expect_valid(binary);
+    EXPECT_EQ(binary.report.format, "GLB");
+    EXPECT_EQ(text.report.format, "glTF");
+    EXPECT_EQ(binary.model.positions, text.model.positions);
+    EXPECT_EQ(binary.model.normals, text.model.normals);
+    EXPECT_EQ(binary.model.uvs, text.model.uvs);
+    EXPECT_EQ(binary.model.colors, text.model.colors);
+    EXPECT_EQ(binary.report.warnings, text.report.warnings);
+    return binary;
+}
 
 std::string refusal(const GltfBuilder& builder) {
     const Scratch scratch;

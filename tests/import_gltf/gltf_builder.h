@@ -13,6 +13,7 @@
 namespace spa::test {
 
 using Json = nlohmann::json;
+using import::Result;
 
 template <class T>
 constexpr int component_type = 0;
@@ -63,7 +64,7 @@ GltfBuilder triangle();
 std::string base64(std::string_view bytes);
 
 // Imports a document, written as a GLB and as glTF with a "data:" URI; both must give the same model.
-import::Result import_both(const GltfBuilder& builder);
+Result import_both(const GltfBuilder& builder);
 
 // The message of the Error(invalid_data); "imported" if there is none.
 std::string refusal(const GltfBuilder& builder);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// write_samples FOLDER: every sample at its lowest, default and a high level, for gltf-validator.
-#include "../../samples/samples.h"
+// write_samples FOLDER: every sample at its lowest, default and a high level, and every scene, for
+// gltf-validator.
+#include "../../samples/scenes.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -21,6 +22,9 @@ int main(int argc, char** argv) {
                 spa::samples::write_glb(spa::samples::make_sample(sample.name, level), folder / file);
             }
         }
+        for (const spa::samples::Sample& scene : spa::samples::list_scenes())
+            spa::samples::write_glb(spa::samples::make_scene(scene.name, 1),
+                                    folder / (std::string(scene.name) + ".glb"));
     } catch (const std::exception& error) {
         std::fprintf(stderr, "write_samples: %s\n", error.what());
         return 1;
