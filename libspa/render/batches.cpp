@@ -6,20 +6,20 @@
 namespace spa::render {
 namespace {
 
-constexpr double wanted_seconds = 0.2;
 constexpr double first_rays = 16384;
 constexpr double most_rays = 1U << 30U;
 
 } // namespace
 
-Batches::Batches(std::uint32_t width, std::uint32_t height, std::uint32_t antialias, std::uint32_t samples)
-    : width_(width), height_(height), antialias_(antialias), samples_(samples),
+Batches::Batches(std::uint32_t width, std::uint32_t height, std::uint32_t antialias, std::uint32_t samples,
+                 double seconds)
+    : width_(width), height_(height), antialias_(antialias), samples_(samples), seconds_(seconds),
       total_(std::uint64_t(width) * height * antialias * (1 + std::uint64_t(samples))), budget_{first_rays,
                                                                                                 first_rays} {}
 
-Batches Batches::of_samples(std::uint32_t width, std::uint32_t height, std::uint32_t first,
-                            std::uint32_t end) {
-    Batches batches(width, height, 1, end);
+Batches Batches::of_samples(std::uint32_t width, std::uint32_t height, std::uint32_t first, std::uint32_t end,
+                            double seconds) {
+    Batches batches(width, height, 1, end, seconds);
     batches.first_sample_ = batches.last_.first_sample = first;
     batches.last_.pass = Pass::secondary;
     return batches;
@@ -74,7 +74,7 @@ void Batches::took(double seconds) {
     const std::uint64_t rays = rays_of(last_);
     done_ += rays;
     double& budget = budget_[std::size_t(last_.pass)];
-    const double better = double(rays) * wanted_seconds / std::max(seconds, 1e-4);
+    const double better = double(rays) * seconds_ / std::max(seconds, 1e-4);
     budget = std::clamp(better, std::max(budget / 4, 64.0), std::min(budget * 4, most_rays));
 }
 

@@ -25,11 +25,13 @@ struct Batch {
 // samples come in their order, so how the work is cut does not change their sum.
 class Batches {
 public:
-    Batches(std::uint32_t width, std::uint32_t height, std::uint32_t antialias, std::uint32_t samples);
+    // seconds: that a batch should take.
+    Batches(std::uint32_t width, std::uint32_t height, std::uint32_t antialias, std::uint32_t samples,
+            double seconds);
 
     // Of one primary ray a pixel that was traced before: the secondary rays from `first` up to `end`.
     static Batches of_samples(std::uint32_t width, std::uint32_t height, std::uint32_t first,
-                              std::uint32_t end);
+                              std::uint32_t end, double seconds);
 
     // None: that was all.
     std::optional<Batch> next();
@@ -42,6 +44,7 @@ private:
 
     std::uint32_t width_, height_, antialias_, samples_;
     std::uint32_t first_sample_ = 0;
+    double seconds_;
     Batch last_;
     bool begun_ = false;
     std::uint64_t done_ = 0, total_; // rays

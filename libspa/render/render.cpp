@@ -84,12 +84,14 @@ public:
 
     // False if `progress` said so.
     bool run(const std::function<bool(double)>& progress) {
-        Batches batches(settings_.width, settings_.height, settings_.antialias, settings_.samples);
+        Batches batches(settings_.width, settings_.height, settings_.antialias, settings_.samples,
+                        settings_.batch_seconds);
         return run(batches, progress);
     }
     // More secondary rays of the primary ones that were traced.
     void add_samples(std::uint32_t first, std::uint32_t end) {
-        Batches batches = Batches::of_samples(settings_.width, settings_.height, first, end);
+        Batches batches =
+            Batches::of_samples(settings_.width, settings_.height, first, end, settings_.batch_seconds);
         run(batches, {});
     }
 

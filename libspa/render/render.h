@@ -21,8 +21,9 @@ namespace spa::render {
 struct MapPlacement {
     std::uint32_t node = 0; // index into Scene::nodes
     const SphericalMap* map = nullptr;
-    std::uint32_t layers = 0; // as many at most; 0: all
-    bool holes = false;       // rays pass where less than half of a texel is covered (SPA_RECORD_COVERAGE)
+    std::uint32_t layers = 0;  // as many at most; 0: all
+    bool holes = false;        // rays pass where less than half of a texel is covered (SPA_RECORD_COVERAGE)
+    bool whole_sphere = false; // for tracing by fan or march (vulkan::LoadOptions)
 };
 
 struct SceneMemory {                       // bytes on the device
@@ -73,6 +74,8 @@ struct Settings {
     Geometry primary = Geometry::triangles, shadow = Geometry::maps, secondary = Geometry::maps;
     vulkan::TraceConstants tracing; // of maps
     Backend backend = Backend::pipeline;
+    double batch_seconds =
+        0.2; // about so long the device is kept busy at a time; does not change the picture
 };
 
 // Pictures, row by row from the top. What no primary ray hits: 0, depth infinity.
@@ -98,10 +101,11 @@ struct FrameTimes {
 Frame render(const Gpu& gpu, const DeviceScene& scene, const Settings& settings, FrameTimes* times = nullptr,
              const std::function<bool(double)>& progress = {});
 
-// Several frames of one camera, each as render() gives it for that number of secondary rays: samples ascends, and
-// settings.samples is not looked at; settings.antialias is 1. Costs what the last of them costs. times: one
-// entry a frame, of all that it alone would take.
+// Several frames of one camera, each as render() gives it for that number of secondary rays: samples ascends,
+// and settings.samples is not looked at; settings.antialias is 1. Costs what the last of them costs. times:
+// one entry a frame, of all that it alone would take.
 std::vector<Frame> render_series(const Gpu& gpu, const DeviceScene& scene, const Settings& settings,
-                                 std::span<const std::uint32_t> samples, std::vector<FrameTimes>* times = nullptr);
+                                 std::span<const std::uint32_t> samples,
+                                 std::vector<FrameTimes>* times = nullptr);
 
 } // namespace spa::render
