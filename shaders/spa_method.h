@@ -36,7 +36,8 @@ SPA_FUNCTION bool spa_trace(SPA_IN(SpaMap) map, SPA_IN(SpaRay) ray, SPA_IN(SpaMe
     return found;
 }
 
-// The first hit of a shader record's map that is not in a hole (spa_hit.h). record_flags: without SPA_ANY_HIT.
+// The first hit of a shader record's map that is not in a hole (spa_hit.h). record_flags: without
+// SPA_ANY_HIT.
 SPA_FUNCTION bool spa_trace_record(SPA_IN(SpaMap) map, SPA_IN(SpaRay) ray, SPA_IN(SpaMethod) method,
                                    uint record_flags, float threshold, SPA_OUT(SpaHit) hit) {
     SpaRay rest = ray;

@@ -69,8 +69,10 @@ SpaQueryHit spa_query_closest(SpaRay ray, uint ray_flags, uint mask) {
             t_max = rayQueryGetIntersectionTEXT(query, true);
         SpaHit hit;
         SpaRay object_ray = spa_object_ray(rayQueryGetIntersectionObjectRayOriginEXT(query, false), ray.t_min,
-                                           rayQueryGetIntersectionObjectRayDirectionEXT(query, false), t_max);
-        if (spa_trace_record(spa_open(0u), object_ray, method, record.flags, spa_hole_threshold, hit)) {
+                                           rayQueryGetIntersectionObjectRayDirectionEXT(query, false),
+                                           spa_reach(t_max));
+        if (spa_trace_record(spa_open(0u), object_ray, method, record.flags, spa_hole_threshold, hit) &&
+            hit.t <= t_max) {
             rayQueryGenerateIntersectionEXT(query, hit.t);
             best.map_hit = hit;
         }
@@ -107,14 +109,14 @@ bool spa_query_occluded(SpaRay ray, uint ray_flags, uint mask) {
         spa_current_image = record.image;
         SpaRay object_ray =
             spa_object_ray(rayQueryGetIntersectionObjectRayOriginEXT(query, false), ray.t_min,
-                           rayQueryGetIntersectionObjectRayDirectionEXT(query, false), ray.t_max);
+                           rayQueryGetIntersectionObjectRayDirectionEXT(query, false), spa_reach(ray.t_max));
         SpaHit hit;
         bool found = false;
         if ((record.flags & SPA_RECORD_COVERAGE) == 0u)
             found = spa_trace(spa_open(0u), object_ray, method, (record.flags & SPA_RECORD_TRACE) | SPA_ANY_HIT, hit);
         else
             found = spa_trace_record(spa_open(0u), object_ray, method, record.flags, spa_hole_threshold, hit);
-        if (found) rayQueryGenerateIntersectionEXT(query, hit.t);
+        if (found && hit.t <= ray.t_max) rayQueryGenerateIntersectionEXT(query, hit.t);
     }
     return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
 }

@@ -37,4 +37,9 @@ SpaMethod spa_chosen_method() {
     return method;
 }
 
+// The t_max to trace with, where t_max is that of the ray or of its best hit so far. Fan and march spread their
+// points over what is left of the ray: their answer must not depend on which instance was tested first. What lies
+// beyond t_max the API refuses.
+float spa_reach(float t_max) { return spa_tracer == SPA_PROJECTIVE ? t_max : 1e30; }
+
 #endif

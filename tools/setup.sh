@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # Installs what is missing on Debian 12. The one place that knows the packages.
-#   sh tools/setup.sh [build] [test] [ci]      without a group: build
+#   sh tools/setup.sh [build] [test] [ci] [hlsl]      without a group: build; hlsl: for tools/check_hlsl.sh
 # Asks dpkg first and runs apt-get only for what is missing, so a second run costs milliseconds.
 set -eu
 
@@ -66,8 +66,14 @@ libclang-rt-14-dev
 shellcheck
 LIST
         ;;
+    hlsl)
+        cat <<'LIST'
+g++-mingw-w64-x86-64-posix
+wine64
+LIST
+        ;;
     *)
-        echo "setup.sh: unknown group '$1'; the groups are build, test and ci" >&2
+        echo "setup.sh: unknown group '$1'; the groups are build, test, ci and hlsl" >&2
         exit 1
         ;;
     esac

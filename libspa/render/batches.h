@@ -3,7 +3,7 @@
 // answer for a few seconds, and progress is told between them.
 #pragma once
 
-#include "kernel.h"
+#include "shaders/data.h"
 
 #include <cstdint>
 #include <optional>
@@ -12,10 +12,12 @@ namespace spa::render {
 
 constexpr std::uint64_t max_pixels = 1U << 26U;
 
+enum class Pass : std::uint32_t { primary = SPA_PASS_PRIMARY, secondary = SPA_PASS_SECONDARY };
+
 struct Batch {
     Pass pass = Pass::primary;
     std::uint32_t first_row = 0, end_row = 0;
-    std::uint32_t first_sample = 0, end_sample = 0; // of the secondary pass
+    std::uint32_t first_sample = 0, end_sample = 0; // one in the primary pass
     std::uint32_t primary_ray = 0;                  // number in its pixel
 };
 

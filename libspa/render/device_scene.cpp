@@ -5,7 +5,6 @@
 #include "scene_materials.h"
 #include "upload.h"
 
-#include "../../shaders/spa_hit.h"
 #include "../core/error.h"
 #include "../vulkan/submit.h"
 
@@ -17,8 +16,8 @@ namespace spa::render {
 namespace {
 
 // docs/rendering.md, "Where rays start".
-constexpr double scene_offset = 4e-6;  // of the diagonal of the scene's box
-constexpr double object_offset = 1e-3; // of the radius of an object that a map replaces
+constexpr double scene_offset = 4e-6; // of the diagonal of the scene's box
+constexpr double map_offset = 0.6;    // of the distance between a map's samples
 
 double diagonal(const std::vector<Vec3f>& points) {
     if (points.empty()) return 0;
@@ -31,12 +30,14 @@ double diagonal(const std::vector<Vec3f>& points) {
     return length(to_double(high) - to_double(low));
 }
 
-// The largest distance from its centre that a part reaches in the world, or a little more.
-double reach(const Part& part, const Affine& to_world) {
+// How far apart a part's samples are in the world, on a sphere of its size: that is what its surface is
+// exact to.
+double sample_distance(const Part& part, const Affine& to_world) {
     const Mat3 m = to_world.linear * part.frame;
-    return part.radius *
-           std::sqrt(dot(m.row[0], m.row[0]) + dot(m.row[1], m.row[1]) + dot(m.row[2], m.row[2])) /
-           std::sqrt(3.0);
+    const double scale =
+        std::sqrt((dot(m.row[0], m.row[0]) + dot(m.row[1], m.row[1]) + dot(m.row[2], m.row[2])) / 3);
+    const ImageView& depth = part.layers.front().outer.depth;
+    return part.radius * scale * std::sqrt(4 * 3.14159265358979 / (double(depth.width) * depth.height));
 }
 
 VkAccelerationStructureInstanceKHR triangle_instance(const vulkan::AccelerationStructure& structure,
@@ -45,10 +46,6 @@ VkAccelerationStructureInstanceKHR triangle_instance(const vulkan::AccelerationS
     for (std::size_t i = 0; i < 3; ++i) instance.transform.matrix[i][i] = 1;
     instance.instanceCustomIndex = custom_index & 0xFFFFFFU;
     instance.mask = object == 0 ? SPA_MASK_STATIC : SPA_MASK_REPLACED;
-    // Nothing but what maps replace is ever culled.
-    instance.flags = object == 0 ? VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR |
-                                       VK_GEOMETRY_INSTANCE_TRIANGLE_FRONT_COUNTERCLOCKWISE_BIT_KHR
-                                 : VK_GEOMETRY_INSTANCE_TRIANGLE_FRONT_COUNTERCLOCKWISE_BIT_KHR;
     instance.accelerationStructureReference = structure.address();
     return instance;
 }
@@ -62,11 +59,12 @@ DeviceScene::State::State(const Gpu& gpu, const Scene& scene, std::span<const Ma
     const SceneTriangles triangles = group_triangles(scene, objects, maps.size(), keep_replaced);
     const double scene_size = diagonal(scene.model.positions) * scene_offset;
     offsets_.push_back(float(scene_size));
+    globals.offset = float(scene_size);
     for (const MapPlacement& placement : maps) {
         double size = 0;
         for (const Part& part : placement.map->parts)
-            size = std::max(size, reach(part, scene.nodes[placement.node].to_world));
-        offsets_.push_back(float(std::max(scene_size, size * object_offset)));
+            size = std::max(size, sample_distance(part, scene.nodes[placement.node].to_world));
+        offsets_.push_back(float(std::max(scene_size, size * map_offset)));
     }
 
     times.upload = seconds_of([&] {
@@ -162,7 +160,6 @@ void DeviceScene::State::add_maps(const Gpu& gpu, const Scene& scene, std::span<
         options.coverage = placement.holes;
         maps_.push_back(std::make_unique<vulkan::MapObject>(gpu.device(), *placement.map, options));
         objects.push_back(maps_.back().get());
-        has_coverage = has_coverage || placement.holes;
     }
     if (objects.empty()) return;
     vulkan::load(gpu.device(), gpu.queue(), gpu.queue_family(), objects);
@@ -182,7 +179,6 @@ void DeviceScene::State::add_maps(const Gpu& gpu, const Scene& scene, std::span<
             top_instances_.push_back(maps_[i]->instance(part, node.to_world, options));
             const vulkan::ShaderRecord record = maps_[i]->record(part);
             records.push_back(record);
-            records.push_back(maps_[i]->record(part, SPA_CULL_BACK));
             data::RenderInstance& instance = instances_.emplace_back();
             instance.image = record.image;
             instance.flags = record.flags;

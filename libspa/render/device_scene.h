@@ -14,8 +14,8 @@
 
 namespace spa::render {
 
-// Shader records of hit groups: two of triangles, then two a part.
-constexpr std::uint32_t first_map_record = 2;
+// Shader records of hit groups: one of all triangles, then one a part.
+constexpr std::uint32_t first_map_record = 1;
 
 struct DeviceScene::State {
     State(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps, bool keep_replaced);
@@ -25,9 +25,8 @@ struct DeviceScene::State {
     bool has_replaced = false; // triangles of what maps replace are here, if there are any
     // Addresses of what is kept below, and the number of lights.
     data::RenderGlobals globals{};
-    // Of parts, in the order of the instances' shader records: without and with SPA_CULL_BACK.
+    // Of parts, in the order of the instances' shader records.
     std::vector<vulkan::ShaderRecord> records;
-    bool has_coverage = false; // some map may have holes
 
 private:
     void add_triangles(const Gpu& gpu, const Scene& scene, const SceneTriangles& triangles);

@@ -62,7 +62,7 @@ Gpu::State::~State() {
 }
 
 Gpu::Gpu(const GpuOptions& options) : state_(std::make_unique<State>(options)) {}
-Gpu::~Gpu() = default;
+Gpu::~Gpu() { state_->kernels.clear(); } // they know this Gpu
 
 const vulkan::Device& Gpu::device() const { return *state_->loader; }
 VkQueue Gpu::queue() const { return state_->queue; }

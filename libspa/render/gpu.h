@@ -33,6 +33,8 @@ struct GpuOptions {
     std::vector<std::string>* messages = nullptr;
 };
 
+// A device with one queue, for one thread at a time. It outlives what is made with it.
+//
 // Throws Error: unsupported if no device suits, with what each lacks; usage if `device` names none.
 class Gpu {
 public:
@@ -50,7 +52,7 @@ public:
     [[nodiscard]] const std::vector<std::string>& messages() const;
 
     struct State;
-    [[nodiscard]] const State& state() const { return *state_; }
+    [[nodiscard]] State& state() const { return *state_; }
 
 private:
     std::unique_ptr<State> state_;

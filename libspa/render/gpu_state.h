@@ -6,9 +6,22 @@
 #include "functions.h"
 #include "gpu.h"
 
+#include "../vulkan/hit_group.h"
+
+#include <memory>
 #include <optional>
+#include <vector>
 
 namespace spa::render {
+
+class Kernel;
+
+// Compiled shaders (kernel.h): compiling them takes longer than a small frame.
+struct CachedKernel {
+    bool pipeline = false;
+    vulkan::TraceConstants tracing;
+    std::shared_ptr<Kernel> kernel;
+};
 
 struct Gpu::State {
     explicit State(const GpuOptions& options);
@@ -27,6 +40,7 @@ struct Gpu::State {
     VkPhysicalDeviceRayTracingPipelinePropertiesKHR pipeline_limits{};
     VkPhysicalDeviceLimits limits{};
     std::optional<vulkan::Device> loader; // the device as libspa/vulkan sees it
+    std::vector<CachedKernel> kernels;    // gone before the Gpu is
 };
 
 } // namespace spa::render

@@ -1,16 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernel.h"
 
-#include <cstddef>
-
 namespace spa::render {
+namespace {
 
-Constants::Constants(const vulkan::TraceConstants& tracing, Pass pass)
-    : values_{tracing, std::uint32_t(pass)} {
-    const VkSpecializationInfo loader = vulkan::specialization(values_.tracing);
-    entries_.assign(loader.pMapEntries, loader.pMapEntries + loader.mapEntryCount);
-    entries_.push_back({4, offsetof(Values, pass), sizeof(std::uint32_t)});
-    info_ = {std::uint32_t(entries_.size()), entries_.data(), sizeof values_, &values_};
+bool equal(const vulkan::TraceConstants& a, const vulkan::TraceConstants& b) {
+    return a.tracer == b.tracer && a.count == b.count && a.count_rule == b.count_rule &&
+           a.hole_threshold == b.hole_threshold;
+}
+
+} // namespace
+
+Kernel& kernel_for(const Gpu& gpu, Backend backend, const vulkan::TraceConstants& tracing) {
+    std::vector<CachedKernel>& kernels = gpu.state().kernels;
+    for (const CachedKernel& cached : kernels)
+        if (cached.pipeline == (backend == Backend::pipeline) && equal(cached.tracing, tracing))
+            return *cached.kernel;
+    CachedKernel made{backend == Backend::pipeline, tracing,
+                      backend == Backend::pipeline ? make_pipeline_kernel(gpu, tracing)
+                                                   : make_query_kernel(gpu, tracing)};
+    kernels.push_back(std::move(made));
+    return *kernels.back().kernel;
 }
 
 ShaderModule::ShaderModule(const Gpu& gpu, std::span<const std::uint32_t> words) : gpu_(gpu) {
@@ -28,13 +38,13 @@ ShaderModule::~ShaderModule() {
 }
 
 VkPipelineShaderStageCreateInfo ShaderModule::stage(VkShaderStageFlagBits stage,
-                                                    const Constants& constants) const {
+                                                    const VkSpecializationInfo& constants) const {
     VkPipelineShaderStageCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     info.stage = stage;
     info.module = module_;
     info.pName = "main";
-    info.pSpecializationInfo = constants.info();
+    info.pSpecializationInfo = &constants;
     return info;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two passes on a device, by one way to trace or the other.
+// The shaders on a device, by one way to trace or the other.
 #pragma once
 
 #include "device_scene.h"
@@ -9,8 +9,6 @@
 
 namespace spa::render {
 
-enum class Pass : std::uint32_t { primary = SPA_PASS_PRIMARY, secondary = SPA_PASS_SECONDARY };
-
 class Kernel {
 public:
     Kernel() = default;
@@ -18,34 +16,19 @@ public:
     Kernel(const Kernel&) = delete;
     Kernel& operator=(const Kernel&) = delete;
 
+    // What is recorded from now on is of this scene. While nothing submitted is on its way.
+    virtual void use(const DeviceScene::State& scene) = 0;
     // Rows batch.first_row to batch.end_row of pictures of this width. Without rows shaders start all the
     // same.
-    virtual void record(VkCommandBuffer commands, Pass pass, const data::RenderBatch& batch,
-                        std::uint32_t width) = 0;
+    virtual void record(VkCommandBuffer commands, const data::RenderBatch& batch, std::uint32_t width) = 0;
 };
 
 // Throw Error{unsupported} if the device was made without what they trace by.
 std::unique_ptr<Kernel> make_query_kernel(const Gpu& gpu, const vulkan::TraceConstants& tracing);
-std::unique_ptr<Kernel> make_pipeline_kernel(const Gpu& gpu, const DeviceScene::State& scene,
-                                             const vulkan::TraceConstants& tracing);
+std::unique_ptr<Kernel> make_pipeline_kernel(const Gpu& gpu, const vulkan::TraceConstants& tracing);
 
-// Specialisation constants of all shaders: the loader's, then the pass.
-class Constants {
-public:
-    Constants(const vulkan::TraceConstants& tracing, Pass pass);
-    Constants(const Constants&) = delete;
-    Constants& operator=(const Constants&) = delete;
-    [[nodiscard]] const VkSpecializationInfo* info() const { return &info_; }
-
-private:
-    struct Values {
-        vulkan::TraceConstants tracing;
-        std::uint32_t pass;
-    };
-    Values values_;
-    std::vector<VkSpecializationMapEntry> entries_;
-    VkSpecializationInfo info_{};
-};
+// The kernel of this kind, made if it is not there yet; the Gpu keeps it.
+Kernel& kernel_for(const Gpu& gpu, Backend backend, const vulkan::TraceConstants& tracing);
 
 class ShaderModule {
 public:
@@ -54,7 +37,7 @@ public:
     ShaderModule(const ShaderModule&) = delete;
     ShaderModule& operator=(const ShaderModule&) = delete;
     [[nodiscard]] VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits stage,
-                                                        const Constants& constants) const;
+                                                        const VkSpecializationInfo& constants) const;
 
 private:
     const Gpu& gpu_;

@@ -15,21 +15,20 @@ class QueryKernel : public Kernel {
 public:
     QueryKernel(const Gpu& gpu, const vulkan::TraceConstants& tracing)
         : gpu_(gpu), layout_(gpu, VK_SHADER_STAGE_COMPUTE_BIT), module_(gpu, render_comp),
-          primary_(gpu, make(tracing, Pass::primary)), secondary_(gpu, make(tracing, Pass::secondary)) {}
+          pipeline_(gpu, make(tracing)) {}
 
-    void record(VkCommandBuffer commands, Pass pass, const data::RenderBatch& batch,
-                std::uint32_t width) override {
+    void use(const DeviceScene::State&) override {}
+    void record(VkCommandBuffer commands, const data::RenderBatch& batch, std::uint32_t width) override {
         const Functions& call = gpu_.state().call;
-        const Pipeline& pipeline = pass == Pass::primary ? primary_ : secondary_;
-        call.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
+        call.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.handle());
         layout_.push(commands, batch);
         const auto groups = [](std::uint32_t count) { return (count + SPA_GROUP_SIZE - 1) / SPA_GROUP_SIZE; };
         call.vkCmdDispatch(commands, groups(width), std::max(1U, groups(batch.end_row - batch.first_row)), 1);
     }
 
 private:
-    VkPipeline make(const vulkan::TraceConstants& tracing, Pass pass) {
-        const Constants constants(tracing, pass);
+    VkPipeline make(const vulkan::TraceConstants& tracing) {
+        const VkSpecializationInfo constants = vulkan::specialization(tracing);
         VkComputePipelineCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
         info.stage = module_.stage(VK_SHADER_STAGE_COMPUTE_BIT, constants);
@@ -44,7 +43,7 @@ private:
     const Gpu& gpu_;
     PipelineLayout layout_;
     ShaderModule module_;
-    Pipeline primary_, secondary_;
+    Pipeline pipeline_;
 };
 
 } // namespace

@@ -75,11 +75,10 @@ public:
         globals.pixels = pixels_.address();
         globals_ = upload(gpu, std::vector<data::RenderGlobals>{globals});
         times_.compile = seconds_of([&] {
-            kernel_ = settings.backend == Backend::query ? make_query_kernel(gpu, settings.tracing)
-                                                         : make_pipeline_kernel(gpu, scene, settings.tracing);
-            // Some drivers compile when a shader is first used: no rows of no samples.
-            submit(Pass::primary, {});
-            submit(Pass::secondary, {});
+            kernel_ = &kernel_for(gpu, settings.backend, settings.tracing);
+            kernel_->use(scene);
+            // Some drivers compile when a shader is first used: no rows.
+            submit({});
         });
     }
 
@@ -87,7 +86,7 @@ public:
     bool run(const std::function<bool(double)>& progress) {
         Batches batches(settings_.width, settings_.height, settings_.antialias, settings_.samples);
         while (const auto batch = batches.next()) {
-            const double seconds = seconds_of([&] { submit(batch->pass, *batch); });
+            const double seconds = seconds_of([&] { submit(*batch); });
             (batch->pass == Pass::primary ? times_.primary : times_.secondary) += seconds;
             batches.took(seconds);
             if (progress && !progress(batches.share_done())) return false;
@@ -99,7 +98,7 @@ public:
     [[nodiscard]] const FrameTimes& times() const { return times_; }
 
 private:
-    void submit(Pass pass, const Batch& batch) {
+    void submit(const Batch& batch) {
         data::RenderBatch push{};
         push.globals = globals_.address();
         push.first_row = batch.first_row;
@@ -107,9 +106,10 @@ private:
         push.first_sample = batch.first_sample;
         push.end_sample = batch.end_sample;
         push.primary_ray = batch.primary_ray;
+        push.pass = std::uint32_t(batch.pass);
         vulkan::submit_and_wait(
             gpu_.device(), gpu_.queue(), gpu_.queue_family(), [&](VkCommandBuffer commands) {
-                kernel_->record(commands, pass, push, settings_.width);
+                kernel_->record(commands, push, settings_.width);
                 vulkan::memory_barrier(gpu_.device().call(), commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
                                        VK_ACCESS_SHADER_WRITE_BIT,
                                        VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
@@ -119,7 +119,7 @@ private:
     const Gpu& gpu_;
     const Settings& settings_;
     vulkan::Buffer surfaces_, pixels_, globals_;
-    std::unique_ptr<Kernel> kernel_;
+    Kernel* kernel_ = nullptr;
     FrameTimes times_;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hit_group.h"
 
-#include "spirv/spa.rahit.h"
-#include "spirv/spa.rchit.h"
-#include "spirv/spa.rint.h"
+#include <spirv/spa.rahit.h>
+#include <spirv/spa.rchit.h>
+#include <spirv/spa.rint.h>
 
 #include <array>
 #include <cstddef>

@@ -18,8 +18,9 @@ constexpr VkDeviceSize image_alignment = 256; // the greatest that any device as
 // Boxes are wider by this share of R: the surface they are made for is only met to rounding.
 constexpr float box_margin = 1e-6F;
 
-VkAabbPositionsKHR box_of(const shader::SpaMap& map) {
-    if (map.mapping != SPA_OCTAHEDRAL) return {-1, -1, -1, 1, 1, 1}; // latlong images do not say
+VkAabbPositionsKHR box_of(const shader::SpaMap& map, bool whole_sphere) {
+    // latlong images do not say where their surface is.
+    if (whole_sphere || map.mapping != SPA_OCTAHEDRAL) return {-1, -1, -1, 1, 1, 1};
     return {map.box_low.x - box_margin,  map.box_low.y - box_margin,  map.box_low.z - box_margin,
             map.box_high.x + box_margin, map.box_high.y + box_margin, map.box_high.z + box_margin};
 }
@@ -29,23 +30,23 @@ VkAabbPositionsKHR box_of(const shader::SpaMap& map) {
 MapObject::MapObject(const Device& device, const SphericalMap& map, const LoadOptions& options)
     : device_(&device), coverage_(options.coverage) {
     if (map.parts.empty()) throw Error(ExitCode::usage, "there is no part to load: was the file opened?");
-    write_images(map, options.compile);
+    write_images(map, options);
     create_structures();
 }
 
-void MapObject::write_images(const SphericalMap& map, const trace::CompileOptions& options) {
+void MapObject::write_images(const SphericalMap& map, const LoadOptions& options) {
     // Without images first: those go straight from the file's mapping to staging memory.
     std::vector<trace::TraceMap> traced;
     VkDeviceSize size = 0;
     for (const Part& part : map.parts) {
-        traced.emplace_back(part, trace::CompileOptions{options.layers, false});
+        traced.emplace_back(part, trace::CompileOptions{options.compile.layers, false});
         LoadedPart& loaded = parts_.emplace_back();
         loaded.placement = part;
         loaded.placement.layers.clear(); // views that may not outlive this call
         loaded.placement.mixed = {};
         loaded.image = size;
         const std::size_t words =
-            options.images ? traced.back().size_with_images(part) : traced.back().words().size();
+            options.compile.images ? traced.back().size_with_images(part) : traced.back().words().size();
         loaded.image_words = words;
         size = align(size + words * sizeof(std::uint32_t), image_alignment);
     }
@@ -60,11 +61,11 @@ void MapObject::write_images(const SphericalMap& map, const trace::CompileOption
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const std::span<std::uint32_t> words(reinterpret_cast<std::uint32_t*>(bytes + parts_[i].image),
                                              parts_[i].image_words);
-        if (options.images)
+        if (options.compile.images)
             traced[i].write_with_images(map.parts[i], words);
         else
             std::memcpy(words.data(), traced[i].words().data(), words.size_bytes());
-        const VkAabbPositionsKHR box = box_of(traced[i].map());
+        const VkAabbPositionsKHR box = box_of(traced[i].map(), options.whole_sphere);
         std::memcpy(bytes + parts_[i].box, &box, sizeof box);
     }
     images_ = Buffer(*device_, size,
@@ -143,7 +144,7 @@ void MapObject::finish() {
     memory_.temporary = 0;
 }
 
-ShaderRecord MapObject::record(std::uint32_t part, std::uint32_t flags) const {
+ShaderRecord MapObject::shader_record(std::uint32_t part, std::uint32_t flags) const {
     if (coverage_) flags |= SPA_RECORD_COVERAGE;
     return {images_.address() + parts_[part].image, flags, part};
 }

@@ -13,8 +13,9 @@
 //      transforms of their own are what moves; bottom levels are never built again.
 //   6a. Ray-tracing pipelines: a hit group from the shaders of hit_group.h, a shader record a part: the
 //   group's
-//      handle, then the 16 bytes of record(); InstanceOptions::hit_record says which is an instance's.
-//   6b. Ray queries: a buffer of record(), one a custom index; #include "spa_ray_query.glsl" in the shader.
+//      handle, then the 16 bytes of shader_record(); InstanceOptions::hit_record says which is an instance's.
+//   6b. Ray queries: a buffer of shader_record(), one a custom index; #include "spa_ray_query.glsl" in the
+//   shader.
 //   7. Destroy the MapObject when no submitted work uses it any more.
 #pragma once
 
@@ -45,6 +46,10 @@ struct LoadOptions {
     // Lets rays through where the map stores little coverage: records have SPA_RECORD_COVERAGE, and the
     // geometry is not opaque, so that hits call an any-hit shader (spa.rahit).
     bool coverage = false;
+    // The box of a part is that of its sphere instead of the stored surface: for fan and march, whose nearest
+    // samples and test points reach beyond the surface between the samples. The projective trace is faster
+    // without.
+    bool whole_sphere = false;
 };
 
 struct InstanceOptions {
@@ -78,7 +83,7 @@ public:
         return parts_[part].structure;
     }
     // flags: SPA_CULL_BACK, SPA_CULL_FRONT.
-    [[nodiscard]] ShaderRecord record(std::uint32_t part, std::uint32_t flags = 0) const;
+    [[nodiscard]] ShaderRecord shader_record(std::uint32_t part, std::uint32_t flags = 0) const;
     // A part somewhere in the world: the shader's object space is the part's map space (shaders/README.md),
     // so that t is the world's. object_to_world has an inverse; it may mirror, shear and scale unevenly.
     [[nodiscard]] VkAccelerationStructureInstanceKHR
@@ -94,7 +99,7 @@ private:
         VkDeviceSize structure_offset = 0, structure_size = 0, scratch_offset = 0;
         AccelerationStructure structure;
     };
-    void write_images(const SphericalMap& map, const trace::CompileOptions& options);
+    void write_images(const SphericalMap& map, const LoadOptions& options);
     void create_structures();
     [[nodiscard]] VkAccelerationStructureGeometryKHR box_geometry(std::uint32_t part) const;
 

@@ -135,6 +135,11 @@ const std::vector<Module>& modules() {
          .uses = {"libspa/core/", "libspa/trace/", "shaders/"},
          .includes = {"vulkan/vulkan_core.h", "spirv/"}, // the last are generated
          .links = {"Vulkan::Headers"}},
+        {.folder = "libspa/dxr/",
+         .targets = {"dxr"},
+         .uses = {"libspa/core/", "libspa/trace/", "shaders/"},
+         .includes = {"directx/d3d12.h", "d3d12.h", "windows.h", "wsl/winadapter.h"},
+         .links = {}},
         {.folder = "libspa/render/",
          .targets = {"render"},
          .uses = {"libspa/core/", "libspa/mesh/", "libspa/trace/", "libspa/vulkan/", "shaders/"},
@@ -159,10 +164,10 @@ const std::vector<Module>& modules() {
                    "nlohmann_json::", "tinygltf"}},
         {.folder = "samples/",
          .targets = {"samples"},
-         .uses = {"libspa/core/", "libspa/mesh/", "libspa/bake/", "libspa/trace/", "formats/container/",
-                  "formats/import/", "shaders/"},
-         .includes = {"OpenImageIO/", "embree3/", "nlohmann/"},
-         .links = {"OpenImageIO::", "embree", "nlohmann_json::"}},
+         .uses = {"libspa/core/", "libspa/mesh/", "libspa/bake/", "libspa/trace/", "libspa/vulkan/",
+                  "formats/container/", "formats/import/", "shaders/"},
+         .includes = {"OpenImageIO/", "embree3/", "nlohmann/", "spirv/", "vulkan/"},
+         .links = {"OpenImageIO::", "Vulkan::", "embree", "nlohmann_json::"}},
     };
     return table;
 }

@@ -1,28 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compute.h"
 
+#include "spirv_file.h"
+
 #include "../../libspa/core/error.h"
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 #include <vector>
 
 namespace spa::test {
-namespace {
-
-std::vector<std::uint32_t> read_words(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    const auto bytes = file ? std::streamoff(file.tellg()) : 0;
-    std::vector<std::uint32_t> words(std::size_t(bytes) / sizeof(std::uint32_t));
-    file.seekg(0);
-    file.read(reinterpret_cast<char*>(words.data()), bytes);
-    if (!file || words.empty()) throw Error(ExitCode::internal, path.string() + ": cannot be read");
-    return words;
-}
-
-} // namespace
-
 Buffer::Buffer(const VulkanDevice& device, std::size_t words)
     : device_(device.handle()), buffer_(device), memory_(device) {
     const VkDeviceSize bytes = words * sizeof(std::uint32_t);
@@ -115,7 +102,7 @@ void ComputePipeline::create_descriptor_set(std::uint32_t buffer_count) {
 }
 
 void ComputePipeline::create_pipeline(const std::filesystem::path& spirv) {
-    const std::vector<std::uint32_t> code = read_words(spirv);
+    const std::vector<std::uint32_t> code = read_spirv(spirv);
     DeviceHandle<VkShaderModule, vkDestroyShaderModule> module(device_);
     VkShaderModuleCreateInfo shader{};
     shader.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;

@@ -90,6 +90,8 @@ VulkanDevice::VulkanDevice(ValidationLog& log, vulkan::Tracing tracing) {
 
 VulkanDevice::~VulkanDevice() { destroy(); }
 
+const char* other_map_shaders() { return std::getenv("SPA_MAP_SHADERS"); }
+
 void VulkanDevice::destroy() {
     if (device_ != VK_NULL_HANDLE) vkDestroyDevice(device_, nullptr);
     const auto destroy_messenger = messenger_ == VK_NULL_HANDLE
@@ -115,7 +117,7 @@ void VulkanDevice::create_instance(ValidationLog& log) {
 
     VkApplicationInfo application{};
     application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
-    application.apiVersion = VK_API_VERSION_1_2;
+    application.apiVersion = other_map_shaders() ? VK_API_VERSION_1_3 : VK_API_VERSION_1_2;
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
     info.pApplicationInfo = &application;
@@ -182,6 +184,8 @@ void VulkanDevice::create_device(vulkan::Tracing tracing) {
     vulkan::DeviceFeatures features(tracing);
     const std::vector<const char*> extensions = vulkan::device_extensions(tracing);
     if (traces_rays(tracing)) {
+        // For addresses, which GLSL has as two words.
+        features.features.features.shaderInt64 = other_map_shaders() ? VK_TRUE : VK_FALSE;
         info.pNext = features.chain();
         info.enabledExtensionCount = std::uint32_t(extensions.size());
         info.ppEnabledExtensionNames = extensions.data();

@@ -20,6 +20,10 @@ void check(VkResult result, const char* what);
 // leaks when the device goes.
 using ValidationLog = std::vector<std::string>;
 
+// A folder with other SPIR-V of all shaders that trace loaded maps, from the environment variable
+// SPA_MAP_SHADERS (tools/check_hlsl.sh); or null. It may be of version 1.6 and have 64-bit integers.
+const char* other_map_shaders();
+
 class VulkanDevice {
 public:
     // Mesa's software device, lavapipe, so that results are the same everywhere; with the environment

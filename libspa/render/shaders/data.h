@@ -35,7 +35,7 @@ struct RenderInstance {
     uint part;
     uint first_triangle; // of the bottom-level structure, among all
     uint object;         // 1 + number of the map's placement; 0: no map replaces it
-    float offset;        // so far above the surface rays leave it
+    float offset;        // so far above it rays leave it to see maps
     uint unused;
 };
 
@@ -78,9 +78,9 @@ struct RenderSurface {
     float3 plane; // geometric normal
     uint kind;    // as in Frame::kind
     float3 normal;
-    float offset;
+    float offset; // of the instance
     float3 albedo;
-    uint object;
+    uint object; // the same
 };
 #define SPA_KIND_NOTHING 0u
 #define SPA_KIND_TRIANGLE 1u
@@ -117,6 +117,7 @@ struct RenderGlobals {
     float3 right; // a ray through the point (x, y) of the image plane: x right + y up + forward
     float3 up;
     float3 forward;
+    float offset; // so far above triangles rays leave them to see triangles
     uint light_count;
     uint width;
     uint height;
@@ -135,10 +136,9 @@ struct RenderBatch {
     uint first_sample;
     uint end_sample;
     uint primary_ray; // number in its pixel
+    uint pass;        // SPA_PASS_...
 };
-
-// Passes: specialisation constant 4.
-#define SPA_PASS_PRIMARY 0u
+#define SPA_PASS_PRIMARY 0u // the samples from 0 to 1
 #define SPA_PASS_SECONDARY 1u
 #define SPA_GROUP_SIZE 8 // a workgroup of a compute shader is a square
 

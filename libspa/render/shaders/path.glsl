@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The integrator, the same for both ways to trace. A file that includes this one defines before
-//   RenderSurface closest(vec3 origin, vec3 direction, uint mask, uint from)
-//   bool occluded(vec3 origin, vec3 direction, float t_max, uint mask, uint from)
-// mask: SPA_MASK_...; from: what the ray starts on, FROM_...
+//   RenderSurface closest(vec3 origin, vec3 direction, uint mask)
+//   bool occluded(vec3 origin, vec3 direction, float t_max, uint mask)
+// mask: SPA_MASK_...
 #ifndef SPA_RENDER_PATH_GLSL
 #define SPA_RENDER_PATH_GLSL
 
 #include "surface.glsl"
-
-layout(constant_id = 4) const uint pass = SPA_PASS_PRIMARY;
 
 const float pi = 3.14159265358979;
 
@@ -38,32 +36,52 @@ vec3 diffuse_direction(vec3 normal, vec2 point) {
     return tangent * (radius * cos(angle)) + bitangent * (radius * sin(angle)) + normal * sqrt(max(0.0, 1.0 - point.x));
 }
 
-uint from_of(RenderSurface surface) {
-    uint from = FROM_ELSEWHERE;
-    if (surface.object != 0u) from |= FROM_OBJECT;
-    if (surface.kind >= SPA_KIND_MAP) from |= FROM_MAP;
-    return from;
+// Of nothing but these, so that directions are the same whatever stands in the scene.
+uvec2 sample_shift(uint index) {
+    uvec2 shift;
+    shift.x = hashed(index ^ hashed(GLOBALS.seed ^ hashed(batch.primary_ray)));
+    shift.y = hashed(shift.x);
+    return shift;
 }
 
-vec3 start_of(RenderSurface surface) { return surface.position + surface.plane * surface.offset; }
+RenderPixel no_sums() {
+    RenderPixel sums;
+    sums.direct = vec3(0.0);
+    sums.depth = -1.0;
+    sums.indirect = vec3(0.0);
+    sums.kind = SPA_KIND_NOTHING;
+    sums.normal = vec3(0.0);
+    sums.secondary_rays = 0u;
+    sums.albedo = vec3(0.0);
+    sums.shadow_rays = 0u;
+    return sums;
+}
+
+// For rays that see these instances. Maps are not exactly where their triangles are.
+vec3 start_of(RenderSurface surface, uint mask) {
+    bool of_map = surface.kind >= SPA_KIND_MAP || (mask & SPA_MASK_MAPS) != 0u;
+    return surface.position + surface.plane * (of_map ? surface.offset : GLOBALS.offset);
+}
 
 // Radiance by light that comes straight from the lights.
 vec3 direct_light(RenderSurface surface, inout uint shadow_rays) {
     vec3 sum = vec3(0.0);
-    vec3 start = start_of(surface);
-    uint from = from_of(surface);
+    vec3 start = start_of(surface, GLOBALS.shadow_mask);
     uint count = GLOBALS.light_count;
     for (uint i = 0u; i < count; i += 1u) {
         RenderLight light = LightsAt(GLOBALS.lights).it[i];
         vec3 way = -light.direction; // to the light
+        vec3 shadow_way = way;       // the same for the shadow ray, which t = range ends
         float range = 1e30;
         float share = 1.0;
         if (light.kind != SPA_LIGHT_DIRECTIONAL) {
-            way = light.position - start;
-            range = sqrt(dot(way, way));
-            if (!(range > 0.0)) continue;
-            way /= range;
-            share = 1.0 / (range * range);
+            way = light.position - surface.position;
+            shadow_way = light.position - start;
+            range = 1.0;
+            float square = dot(way, way);
+            if (!(square > 0.0)) continue;
+            way *= inversesqrt(square);
+            share = 1.0 / square;
         }
         if (light.kind == SPA_LIGHT_SPOT) {
             float cosine = -dot(way, light.direction);
@@ -73,7 +91,7 @@ vec3 direct_light(RenderSurface surface, inout uint shadow_rays) {
         share *= dot(surface.normal, way);
         if (!(share > 0.0) || dot(surface.plane, way) <= 0.0) continue;
         shadow_rays += 1u;
-        if (occluded(start, way, range, GLOBALS.shadow_mask, from)) continue;
+        if (occluded(start, shadow_way, range, GLOBALS.shadow_mask)) continue;
         sum += light.intensity * share;
     }
     return surface.albedo * sum * (1.0 / pi);
@@ -87,66 +105,55 @@ vec3 primary_direction(uvec2 pixel) {
     return normalize(GLOBALS.right * place.x - GLOBALS.up * place.y + GLOBALS.forward);
 }
 
-void primary_pass(uvec2 pixel) {
-    uint index = pixel.y * GLOBALS.width + pixel.x;
-    RenderSurface surface = closest(GLOBALS.eye, primary_direction(pixel), GLOBALS.primary_mask, FROM_ELSEWHERE);
-    SurfacesAt(GLOBALS.surfaces).it[index] = surface;
-
-    RenderPixel sums;
-    if (batch.primary_ray == 0u) {
-        sums.direct = vec3(0.0);
-        sums.depth = surface.t;
-        sums.indirect = vec3(0.0);
-        sums.kind = surface.kind;
-        sums.normal = vec3(0.0);
-        sums.secondary_rays = 0u;
-        sums.albedo = vec3(0.0);
-        sums.shadow_rays = 0u;
-    } else {
-        sums = PixelsAt(GLOBALS.pixels).it[index];
-    }
-    if (surface.kind != SPA_KIND_NOTHING) {
-        sums.direct += direct_light(surface, sums.shadow_rays);
-        sums.normal += surface.normal;
-        sums.albedo += surface.albedo;
-    }
-    PixelsAt(GLOBALS.pixels).it[index] = sums;
-}
-
-void secondary_pass(uvec2 pixel) {
-    uint index = pixel.y * GLOBALS.width + pixel.x;
-    RenderSurface surface = SurfacesAt(GLOBALS.surfaces).it[index];
-    if (surface.kind == SPA_KIND_NOTHING) return;
-
-    // Of nothing but these, so that it is the same whatever is hit.
-    uvec2 shift;
-    shift.x = hashed(index ^ hashed(GLOBALS.seed ^ hashed(batch.primary_ray)));
-    shift.y = hashed(shift.x);
-    vec3 start = start_of(surface);
-    uint from = from_of(surface);
-    vec3 sum = PixelsAt(GLOBALS.pixels).it[index].indirect;
-    uint secondary_rays = PixelsAt(GLOBALS.pixels).it[index].secondary_rays;
-    uint shadow_rays = PixelsAt(GLOBALS.pixels).it[index].shadow_rays;
-    for (uint i = batch.first_sample; i < batch.end_sample; i += 1u) {
-        vec3 direction = diffuse_direction(surface.normal, r2_point(i, shift));
-        if (dot(surface.plane, direction) <= 0.0) continue;
-        secondary_rays += 1u;
-        RenderSurface hit = closest(start, direction, GLOBALS.secondary_mask, from);
-        if (hit.kind != SPA_KIND_NOTHING) sum += surface.albedo * direct_light(hit, shadow_rays);
-    }
-    PixelsAt(GLOBALS.pixels).it[index].indirect = sum;
-    PixelsAt(GLOBALS.pixels).it[index].secondary_rays = secondary_rays;
-    PixelsAt(GLOBALS.pixels).it[index].shadow_rays = shadow_rays;
-}
-
+// Both passes in one text, with one place each that traces closest hits and shadow rays: drivers that inline
+// everything compile it in half the time.
+//
 // place: in the batch, which is a number of whole rows.
 void render_pixel(uvec2 place) {
     uvec2 pixel = uvec2(place.x, batch.first_row + place.y);
     if (pixel.x >= GLOBALS.width || pixel.y >= batch.end_row) return;
-    if (pass == SPA_PASS_PRIMARY)
-        primary_pass(pixel);
-    else
-        secondary_pass(pixel);
+    uint index = pixel.y * GLOBALS.width + pixel.x;
+    bool is_primary = batch.pass == SPA_PASS_PRIMARY;
+
+    RenderPixel sums = no_sums();
+    if (!is_primary || batch.primary_ray > 0u) sums = PixelsAt(GLOBALS.pixels).it[index];
+    RenderSurface surface = no_surface(); // that rays leave
+    vec3 start = GLOBALS.eye;
+    uint mask = GLOBALS.primary_mask;
+    if (!is_primary) {
+        surface = SurfacesAt(GLOBALS.surfaces).it[index];
+        if (surface.kind == SPA_KIND_NOTHING) return;
+        mask = GLOBALS.secondary_mask;
+        start = start_of(surface, mask);
+    }
+    uvec2 shift = sample_shift(index);
+
+    for (uint i = batch.first_sample; i < batch.end_sample; i += 1u) {
+        vec3 direction;
+        if (is_primary) {
+            direction = primary_direction(pixel);
+        } else {
+            direction = diffuse_direction(surface.normal, r2_point(i, shift));
+            if (dot(surface.plane, direction) <= 0.0) continue;
+            sums.secondary_rays += 1u;
+        }
+        RenderSurface hit = closest(start, direction, mask);
+        vec3 light = vec3(0.0);
+        if (hit.kind != SPA_KIND_NOTHING) light = direct_light(hit, sums.shadow_rays);
+        if (is_primary) {
+            SurfacesAt(GLOBALS.surfaces).it[index] = hit;
+            if (batch.primary_ray == 0u) {
+                sums.depth = hit.t;
+                sums.kind = hit.kind;
+            }
+            sums.direct += light;
+            sums.normal += hit.normal;
+            sums.albedo += hit.albedo;
+        } else {
+            sums.indirect += surface.albedo * light;
+        }
+    }
+    PixelsAt(GLOBALS.pixels).it[index] = sums;
 }
 
 #endif

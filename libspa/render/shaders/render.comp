@@ -7,20 +7,17 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-#include "from.glsl"
 #include "scene.glsl"
 #include "spa_trace.glsl"
 #include "material.glsl"
 
 layout(local_size_x = SPA_GROUP_SIZE, local_size_y = SPA_GROUP_SIZE) in;
 
-uint extra_flags = 0u; // of maps, for the ray on its way
-
 SpaRecord query_record(uint index) {
     RenderInstance instance = instance_at(index);
     SpaRecord record;
     record.image = instance.image;
-    record.flags = instance.flags | extra_flags;
+    record.flags = instance.flags;
     record.part = instance.part;
     return record;
 }
@@ -34,13 +31,8 @@ SpaRecord query_record(uint index) {
 #include "spa_ray_query.glsl"
 #include "surface.glsl"
 
-uint ray_flags(uint from) {
-    extra_flags = (from & FROM_OBJECT) != 0u ? SPA_CULL_BACK : 0u;
-    return (from & FROM_MAP) != 0u ? gl_RayFlagsCullBackFacingTrianglesEXT : gl_RayFlagsNoneEXT;
-}
-
-RenderSurface closest(vec3 origin, vec3 direction, uint mask, uint from) {
-    SpaQueryHit best = spa_query_closest(spa_object_ray(origin, 0.0, direction, 1e30), ray_flags(from), mask);
+RenderSurface closest(vec3 origin, vec3 direction, uint mask) {
+    SpaQueryHit best = spa_query_closest(spa_object_ray(origin, 0.0, direction, 1e30), gl_RayFlagsNoneEXT, mask);
     if (best.type == SPA_QUERY_TRIANGLE)
         return triangle_surface(best.custom_index, best.primitive, best.barycentrics, best.t, direction);
     if (best.type == SPA_QUERY_MAP)
@@ -49,8 +41,8 @@ RenderSurface closest(vec3 origin, vec3 direction, uint mask, uint from) {
     return no_surface();
 }
 
-bool occluded(vec3 origin, vec3 direction, float t_max, uint mask, uint from) {
-    return spa_query_occluded(spa_object_ray(origin, 0.0, direction, t_max), ray_flags(from), mask);
+bool occluded(vec3 origin, vec3 direction, float t_max, uint mask) {
+    return spa_query_occluded(spa_object_ray(origin, 0.0, direction, t_max), gl_RayFlagsNoneEXT, mask);
 }
 
 #include "path.glsl"
