@@ -48,7 +48,7 @@ Scene make_with_boot(int level, const Mat3& turn) {
     scene.add_boot(level, turn, {0, 0, 0.1});
     scene.add_camera("side", {0.72, 0.42, 1.2}, {-0.02, 0.3, 0.0}, 40);
     scene.add_camera("tip", {0.0, 0.34, 1.25}, {0.0, 0.25, 0.1}, 36);
-    scene.add_point_light("lamp", {0.05, 1.05, 0.38}, 3);
+    scene.add_point_light("lamp", {0.05, 1.05, 0.38}, 2.5F);
     return scene.take();
 }
 

@@ -73,7 +73,7 @@ Model make_turned(std::span<const OutlinePoint> outline, std::uint32_t columns, 
 
 Model make_arch(const Arch& arch, std::uint32_t segments, const Material& material) {
     Model model = empty_mesh(material);
-    const auto [w, h, d, r] = arch;
+    const double w = arch.half_width, h = arch.height, d = arch.half_depth, r = arch.radius;
     // From the left foot of the arch over its crown to the right one; above each point one of the upper edge.
     std::vector<Vec3d> below, above;
     for (std::uint32_t i = 0; i <= segments; ++i) {

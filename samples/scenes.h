@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes made by code: the sample boot where its shadow or the colours that it throws on its surroundings can
-// be seen. Metres, +Y up, white walls of albedo 0.8, point lights that bring these to a radiance of about 0.5
-// to 0.9.
+// Scenes made by code: the sample boot where its shadow, or the colours that it throws on its surroundings,
+// can be seen. Metres, +Y up, white walls and floors of albedo 0.8, one point light each that gives these a
+// radiance of about 0.2 to 0.9. In the corner it is high up near the edge: it grazes the walls and falls full
+// on the boot and the floor, so that what the boot throws on the walls shows.
 //
 // In each of them a node named "boot" has the mesh of make_sample("boot", level) in its local space, so that
 // a map baked from that sample can take its place. Floors, walls and columns are nodes of their own.
@@ -25,8 +26,8 @@ namespace spa::samples {
 // All scenes, in the order to show them in; the level is that of the boot.
 //   corner       the boot close to the edge between two white walls, tip at a right angle to the left one
 //   corner-b     the same, tip towards the edge
-//   corner-c     the same, turned away and tilted, so that both of its sides light the walls
-//   corner-d     the same, leaning over, so that most of one side is lit
+//   corner-c     the same, leaning back into the edge, so that both of its sides light the walls
+//   corner-d     the same as the first, fallen over, so that most of one side is lit
 //   wall         the boot before a white wall in light from the front; casts a shadow on it
 //   colonnade    the boot before columns with arches, lit from above; cameras "side" and "tip"
 //   colonnade-b  the same, tip tilted down by 20 degrees

@@ -41,7 +41,7 @@ TEST(SampleVerb, ScenesAreListed) {
     const Outcome outcome = run_spa({"help", "sample"}, folder.path());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     for (const samples::Sample& scene : samples::list_scenes())
-        EXPECT_NE(outcome.out.find("\n" + std::string(scene.name) + ":"), std::string::npos) << outcome.out;
+        EXPECT_NE(outcome.out.find(" " + std::string(scene.name) + ": "), std::string::npos) << outcome.out;
 }
 
 TEST(SampleVerb, TextNamesTheFile) {
