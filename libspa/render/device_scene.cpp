@@ -177,7 +177,7 @@ void DeviceScene::State::add_maps(const Gpu& gpu, const Scene& scene, std::span<
             options.mask = SPA_MASK_MAPS;
             options.hit_record = first_map_record + std::uint32_t(records.size());
             top_instances_.push_back(maps_[i]->instance(part, node.to_world, options));
-            const vulkan::ShaderRecord record = maps_[i]->record(part);
+            const vulkan::ShaderRecord record = maps_[i]->shader_record(part);
             records.push_back(record);
             data::RenderInstance& instance = instances_.emplace_back();
             instance.image = record.image;
