@@ -6,6 +6,7 @@
 #include "../support/shapes.h"
 
 #include <algorithm>
+#include <array>
 
 namespace spa::test {
 namespace {
@@ -61,6 +62,24 @@ TEST_F(Repeat, SpreadsSeveralPrimaryRaysOverAPixel) {
     const auto mixed = std::count_if(many.albedo.begin(), many.albedo.end(),
                                      [](Vec3f c) { return c.x > 0.85F && c.y < 0.95F; });
     EXPECT_GT(mixed, 10);
+}
+
+TEST_F(Repeat, GivesASeriesAsSingleFrames) {
+    const render::DeviceScene loaded(*gpu, scene, {}, false);
+    const std::array<std::uint32_t, 3> samples{3, 4, 20};
+    std::vector<render::FrameTimes> times;
+    const std::vector<Frame> frames = render::render_series(*gpu, loaded, settings, samples, &times);
+    ASSERT_EQ(frames.size(), samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        settings.samples = samples[i];
+        render::FrameTimes alone;
+        const Frame frame = render_triangles(scene, settings, &alone);
+        EXPECT_TRUE(same_bits(frame.direct, frames[i].direct));
+        EXPECT_TRUE(same_bits(frame.indirect, frames[i].indirect));
+        EXPECT_EQ(alone.secondary_rays, times[i].secondary_rays);
+        EXPECT_EQ(alone.shadow_rays, times[i].shadow_rays);
+    }
+    EXPECT_LT(times[0].secondary, times[2].secondary);
 }
 
 TEST_F(Repeat, EndsWhenTold) {
