@@ -6,6 +6,7 @@
 #include "../../libspa/bake/bake.h"
 #include "../../samples/samples.h"
 #include "../../shaders/spa_method.h"
+#include "../support/shapes.h"
 
 #include <cmath>
 
@@ -19,9 +20,11 @@ using render::Settings;
 
 class Maps : public RenderTest {
 protected:
-    // An object of samples in the room, turned, mirrored and scaled, under a light.
     void make(const char* sample, std::uint32_t cells, std::uint32_t layers) {
-        const Model model = samples::make_sample(sample, 3);
+        make(samples::make_sample(sample, 3), cells, layers);
+    }
+    // An object in the room, turned, mirrored and scaled, under a light.
+    void make(const Model& model, std::uint32_t cells, std::uint32_t layers) {
         add_room(scene);
         Affine to_world;
         to_world.linear = {{{0.6, 0, 0.5}, {0, 0.8, 0}, {0.5, 0, -0.6}}};
@@ -38,8 +41,9 @@ protected:
         settings.samples = 16;
         settings.camera = camera_at({1.2, 0.9, 3.4}, {0, -0.1, 0}, 0.7);
     }
-    [[nodiscard]] std::unique_ptr<render::DeviceScene> load(bool keep_replaced = true) const {
-        const render::MapPlacement placement{object, &baked.map.map};
+    [[nodiscard]] std::unique_ptr<render::DeviceScene> load(bool keep_replaced = true,
+                                                            bool holes = false) const {
+        const render::MapPlacement placement{object, &baked.map.map, 0, holes};
         return std::make_unique<render::DeviceScene>(*gpu, scene, std::span(&placement, 1), keep_replaced);
     }
     Frame frame(const render::DeviceScene& loaded, Geometry primary, Geometry others) {
@@ -112,6 +116,28 @@ TEST_F(Maps, AndTrianglesAreTheSameByPipelineAndByQuery) {
         EXPECT_LE(differing(query.albedo, pipeline.albedo, 1e-5F), few);
         EXPECT_LE(differing(query.indirect, pipeline.indirect, 1e-4F), query.direct.size() / 500);
         EXPECT_EQ(query.kind, pipeline.kind);
+    }
+}
+
+// A ball with a transparent band, so that light falls through it and its inside is seen.
+TEST_F(Maps, HaveHolesWhereTheyAreAskedFor) {
+    Model ball = empty_model();
+    add_sphere(ball, {}, 1, 48);
+    for (const Vec3f& p : ball.positions)
+        ball.colors.push_back({1, 0.8F, 0.6F, std::abs(p.y) < 0.35F ? 0.1F : 1.0F});
+    ball.materials.front().alpha_mode = AlphaMode::blend;
+    make(ball, 128, 1);
+    const auto loaded = load(true, true);
+    const Frame triangles = frame(*loaded, Geometry::triangles, Geometry::triangles);
+    const Frame solid = frame(*load(), Geometry::maps, Geometry::maps);
+    const std::size_t pixels = triangles.direct.size();
+    EXPECT_GT(differing(triangles.direct, solid.direct, 0.05F, 0.02F), pixels / 20);
+    for (const Backend backend : {Backend::query, Backend::pipeline}) {
+        settings.backend = backend;
+        const Frame maps = frame(*loaded, Geometry::maps, Geometry::maps);
+        EXPECT_LT(differing(triangles.direct, maps.direct, 0.05F, 0.02F), pixels / 50);
+        EXPECT_LT(differing(triangles.albedo, maps.albedo, 0.05F, 0.05F), pixels / 50);
+        EXPECT_NEAR(mean(maps.indirect), mean(triangles.indirect), 0.02 * mean(triangles.indirect));
     }
 }
 
