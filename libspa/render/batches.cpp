@@ -6,14 +6,14 @@
 namespace spa::render {
 namespace {
 
-constexpr double wanted_seconds = 0.2;
 constexpr double first_rays = 16384;
 constexpr double most_rays = 1U << 30U;
 
 } // namespace
 
-Batches::Batches(std::uint32_t width, std::uint32_t height, std::uint32_t antialias, std::uint32_t samples)
-    : width_(width), height_(height), antialias_(antialias), samples_(samples),
+Batches::Batches(std::uint32_t width, std::uint32_t height, std::uint32_t antialias, std::uint32_t samples,
+                 double seconds)
+    : width_(width), height_(height), antialias_(antialias), samples_(samples), seconds_(seconds),
       total_(std::uint64_t(width) * height * antialias * (1 + std::uint64_t(samples))), budget_{first_rays,
                                                                                                 first_rays} {}
 
@@ -66,7 +66,7 @@ void Batches::took(double seconds) {
     const std::uint64_t rays = rays_of(last_);
     done_ += rays;
     double& budget = budget_[std::size_t(last_.pass)];
-    const double better = double(rays) * wanted_seconds / std::max(seconds, 1e-4);
+    const double better = double(rays) * seconds_ / std::max(seconds, 1e-4);
     budget = std::clamp(better, std::max(budget / 4, 64.0), std::min(budget * 4, most_rays));
 }
 

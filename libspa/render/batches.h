@@ -25,7 +25,9 @@ struct Batch {
 // samples come in their order, so how the work is cut does not change their sum.
 class Batches {
 public:
-    Batches(std::uint32_t width, std::uint32_t height, std::uint32_t antialias, std::uint32_t samples);
+    // seconds: that a batch should take.
+    Batches(std::uint32_t width, std::uint32_t height, std::uint32_t antialias, std::uint32_t samples,
+            double seconds);
 
     // None: that was all.
     std::optional<Batch> next();
@@ -37,6 +39,7 @@ private:
     [[nodiscard]] std::uint64_t rays_of(const Batch& batch) const;
 
     std::uint32_t width_, height_, antialias_, samples_;
+    double seconds_;
     Batch last_;
     bool begun_ = false;
     std::uint64_t done_ = 0, total_; // rays

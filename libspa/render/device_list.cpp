@@ -165,6 +165,7 @@ std::vector<FoundDevice> find_devices(const Instance& instance, vulkan::Tracing 
     check(vkEnumeratePhysicalDevices(instance.handle(), &count, handles.data()),
           "vkEnumeratePhysicalDevices");
     std::vector<FoundDevice> devices;
+    devices.reserve(count);
     for (VkPhysicalDevice handle : handles) devices.push_back(describe(instance.handle(), handle, tracing));
     return devices;
 }

@@ -158,6 +158,7 @@ void DeviceScene::State::add_maps(const Gpu& gpu, const Scene& scene, std::span<
         vulkan::LoadOptions options;
         options.compile.layers = placement.layers;
         options.coverage = placement.holes;
+        options.whole_sphere = placement.whole_sphere;
         maps_.push_back(std::make_unique<vulkan::MapObject>(gpu.device(), *placement.map, options));
         objects.push_back(maps_.back().get());
     }

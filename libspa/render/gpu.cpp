@@ -7,6 +7,7 @@ namespace {
 FoundDevice choose(const Instance& instance, const GpuOptions& options) {
     std::vector<FoundDevice> devices = find_devices(instance, options.tracing);
     std::vector<DeviceEntry> entries;
+    entries.reserve(devices.size());
     for (const FoundDevice& device : devices) entries.push_back(device.entry);
     return devices[choose_device(entries, options.device)];
 }

@@ -3,11 +3,11 @@
 #include "kernel.h"
 #include "upload.h"
 
-#include "spirv/map.rchit.h"
-#include "spirv/render.rgen.h"
-#include "spirv/render.rmiss.h"
-#include "spirv/triangle.rahit.h"
-#include "spirv/triangle.rchit.h"
+#include <spirv/map.rchit.h>
+#include <spirv/render.rgen.h>
+#include <spirv/render.rmiss.h>
+#include <spirv/triangle.rahit.h>
+#include <spirv/triangle.rchit.h>
 
 #include "../core/error.h"
 

@@ -2,7 +2,7 @@
 // Compute shaders with ray queries.
 #include "kernel.h"
 
-#include "spirv/render.comp.h"
+#include <spirv/render.comp.h>
 
 #include "../core/error.h"
 

@@ -84,7 +84,8 @@ public:
 
     // False if `progress` said so.
     bool run(const std::function<bool(double)>& progress) {
-        Batches batches(settings_.width, settings_.height, settings_.antialias, settings_.samples);
+        Batches batches(settings_.width, settings_.height, settings_.antialias, settings_.samples,
+                        settings_.batch_seconds);
         while (const auto batch = batches.next()) {
             const double seconds = seconds_of([&] { submit(*batch); });
             (batch->pass == Pass::primary ? times_.primary : times_.secondary) += seconds;

@@ -21,8 +21,9 @@ namespace spa::render {
 struct MapPlacement {
     std::uint32_t node = 0; // index into Scene::nodes
     const SphericalMap* map = nullptr;
-    std::uint32_t layers = 0; // as many at most; 0: all
-    bool holes = false;       // rays pass where less than half of a texel is covered (SPA_RECORD_COVERAGE)
+    std::uint32_t layers = 0;  // as many at most; 0: all
+    bool holes = false;        // rays pass where less than half of a texel is covered (SPA_RECORD_COVERAGE)
+    bool whole_sphere = false; // for tracing by fan or march (vulkan::LoadOptions)
 };
 
 struct SceneMemory {                       // bytes on the device
@@ -73,6 +74,8 @@ struct Settings {
     Geometry primary = Geometry::triangles, shadow = Geometry::maps, secondary = Geometry::maps;
     vulkan::TraceConstants tracing; // of maps
     Backend backend = Backend::query;
+    double batch_seconds =
+        0.2; // about so long the device is kept busy at a time; does not change the picture
 };
 
 // Pictures, row by row from the top. What no primary ray hits: 0, depth infinity.
