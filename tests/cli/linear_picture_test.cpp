@@ -155,7 +155,7 @@ TEST_F(LinearPictures, NoDamageDoesHarm) {
                                      text(tools::encode_png(tools::Picture(8, 8, {10, 20, 30})))}) {
         for (std::size_t length = 0; length < whole.size(); length += 7)
             static_cast<void>(refusal(whole.substr(0, length)));
-        for (std::size_t at = 0; at < whole.size(); ++at) {
+        for (std::size_t at = 0; at < whole.size(); at += 3) {
             std::string damaged = whole;
             damaged[at] = char(damaged[at] ^ 0x5A);
             static_cast<void>(refusal(damaged));
