@@ -28,7 +28,7 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
 
 // What may have been meant, or else what there is.
 std::string suggestion(const std::string& given, const std::vector<std::string>& names) {
-    const std::string near = did_you_mean(given, names);
+    std::string near = did_you_mean(given, names);
     if (!near.empty()) return near;
     if (names.empty()) return "; none has a name";
     std::string text = "; there are ";

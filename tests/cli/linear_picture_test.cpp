@@ -146,6 +146,9 @@ TEST_F(LinearPictures, AnExrThatClaimsALotIsRefused) {
     EXPECT_NE(refusal(with(std::numeric_limits<std::int32_t>::min(), 0x7FFFFFFF)).find("more than the limit"),
               std::string::npos);
     EXPECT_NE(refusal(with(3, 2)).find("no image header"), std::string::npos);
+    spa::import::Limits limits;
+    limits.texture_pixels = 11;
+    EXPECT_NE(refusal(with(-7, -4), limits).find("4 x 3 pixels"), std::string::npos);
 }
 
 TEST_F(LinearPictures, NoDamageDoesHarm) {
