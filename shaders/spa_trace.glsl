@@ -28,11 +28,13 @@ layout(constant_id = 0) const uint spa_tracer = SPA_PROJECTIVE;
 layout(constant_id = 1) const uint spa_count = 10u; // test rays of the fan, steps of the march
 layout(constant_id = 2) const uint spa_count_rule = SPA_FAN_FIXED;
 layout(constant_id = 3) const float spa_hole_threshold = SPA_HOLE_THRESHOLD; // of coverage
+layout(constant_id = 4) const uint spa_fan_start = SPA_FAN_START_HITS;
 
 SpaMethod spa_chosen_method() {
     SpaMethod method = spa_method_defaults(spa_tracer);
     method.fan.count = spa_count;
     method.fan.count_rule = spa_count_rule;
+    method.fan.start = spa_fan_start;
     method.march.steps = spa_count;
     return method;
 }

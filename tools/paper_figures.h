@@ -26,7 +26,7 @@ struct FigureError {
 };
 
 struct FigureOptions {
-    std::uint32_t width = 320, height = 240, samples = 64;
+    std::uint32_t width = 320, height = 240, samples = 32;
     render::Backend backend = render::Backend::pipeline;
     std::function<bool(double share, const std::string& step)> progress; // false: cancels; may be empty
 };

@@ -16,6 +16,7 @@ PaperMethod fan(const std::string& name, std::uint32_t count, std::uint32_t rule
     method.tracing.tracer = SPA_FAN;
     method.tracing.count = count;
     method.tracing.count_rule = rule;
+    method.tracing.fan_start = SPA_FAN_START_LEAVES;
     return method;
 }
 
@@ -147,7 +148,12 @@ std::unique_ptr<render::DeviceScene> on_device(const render::Gpu& gpu, const Sce
                                                std::uint32_t object, const SphericalMap* map,
                                                bool keep_replaced) {
     std::vector<render::MapPlacement> placements;
-    if (map != nullptr) placements.push_back({object, map, 0});
+    if (map != nullptr) {
+        render::MapPlacement& placement = placements.emplace_back();
+        placement.node = object;
+        placement.map = map;
+        placement.test_points = map->parts.front().mapping == Mapping::latlong; // met by fans alone
+    }
     return std::make_unique<render::DeviceScene>(gpu, scene, placements, keep_replaced);
 }
 

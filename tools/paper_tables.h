@@ -52,8 +52,8 @@ struct PaperTables {
 struct PaperTableOptions {
     std::vector<int> levels{0, 1, 2, 3, 4, 5, 6};
     std::vector<std::uint32_t> samples{8, 32, 128, 256};
-    std::uint32_t width = 160, height = 120;
-    std::uint32_t reference_samples = 1024;
+    std::uint32_t width = 128, height = 96;
+    std::uint32_t reference_samples = 512;
     // On levels above this the reference of this level is used: the boots no longer differ to the eye.
     int reference_level = 4;
     unsigned runs = 1; // of each frame; times are the medians

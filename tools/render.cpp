@@ -91,7 +91,7 @@ render::Settings complete_scene(Scene& scene, const RenderArguments& arguments) 
 std::unique_ptr<render::DeviceScene> upload(const RenderArguments& arguments, const render::Gpu& gpu,
                                             const Scene& scene, const std::vector<PlacedMap>& maps) {
     const SlowStep step("building acceleration structures", arguments.quiet);
-    return std::make_unique<render::DeviceScene>(gpu, scene, placements(maps, arguments.layers),
+    return std::make_unique<render::DeviceScene>(gpu, scene, placements(maps, arguments),
                                                  arguments.uses_replaced_triangles());
 }
 

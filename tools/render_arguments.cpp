@@ -78,6 +78,7 @@ void complete_tracing(Given& given) {
     if (march) tracing.tracer = SPA_MARCH;
     tracing.count = march ? shader::spa_march_defaults().steps : fan ? shader::spa_fan_defaults().count : 0;
     tracing.count_rule = SPA_FAN_FIXED;
+    tracing.fan_start = SPA_FAN_START_LEAVES;
     if (!given.test_rays) return;
     if (!fan && !march)
         throw Error(ExitCode::usage, std::string("--test-rays is for --method fan and march; ") +

@@ -102,10 +102,19 @@ std::vector<PlacedMap> place_maps(const Scene& scene, const RenderArguments& arg
     return maps;
 }
 
-std::vector<render::MapPlacement> placements(const std::vector<PlacedMap>& maps, std::uint32_t layers) {
+std::vector<render::MapPlacement> placements(const std::vector<PlacedMap>& maps,
+                                             const RenderArguments& arguments) {
     std::vector<render::MapPlacement> all;
-    for (const PlacedMap& map : maps)
-        for (const std::uint32_t node : map.nodes) all.push_back({node, &map.file.map(), layers});
+    for (const PlacedMap& map : maps) {
+        for (const std::uint32_t node : map.nodes) {
+            render::MapPlacement placement;
+            placement.node = node;
+            placement.map = &map.file.map();
+            placement.layers = arguments.layers;
+            placement.test_points = arguments.method != MapMethod::projective;
+            all.push_back(placement);
+        }
+    }
     return all;
 }
 

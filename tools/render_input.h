@@ -29,7 +29,8 @@ std::vector<std::uint32_t> find_nodes(const Scene& scene, const std::string& sce
 std::vector<PlacedMap> place_maps(const Scene& scene, const RenderArguments& arguments);
 
 // For the renderer; refers to `maps`.
-std::vector<render::MapPlacement> placements(const std::vector<PlacedMap>& maps, std::uint32_t layers);
+std::vector<render::MapPlacement> placements(const std::vector<PlacedMap>& maps,
+                                             const RenderArguments& arguments);
 
 // The scene's camera of that name, or of that number; the first without an argument, and where there is none
 // one that shows the whole scene. Throws Error{usage} if there is none such.

@@ -158,7 +158,7 @@ void DeviceScene::State::add_maps(const Gpu& gpu, const Scene& scene, std::span<
         vulkan::LoadOptions options;
         options.compile.layers = placement.layers;
         options.coverage = placement.holes;
-        options.whole_sphere = placement.whole_sphere;
+        options.whole_sphere = placement.test_points;
         maps_.push_back(std::make_unique<vulkan::MapObject>(gpu.device(), *placement.map, options));
         objects.push_back(maps_.back().get());
     }
@@ -178,7 +178,8 @@ void DeviceScene::State::add_maps(const Gpu& gpu, const Scene& scene, std::span<
             options.mask = SPA_MASK_MAPS;
             options.hit_record = first_map_record + std::uint32_t(records.size());
             top_instances_.push_back(maps_[i]->instance(part, node.to_world, options));
-            const vulkan::ShaderRecord record = maps_[i]->shader_record(part);
+            const vulkan::ShaderRecord record =
+                maps_[i]->shader_record(part, maps[i].test_points ? SPA_CULL_BACK : 0);
             records.push_back(record);
             data::RenderInstance& instance = instances_.emplace_back();
             instance.image = record.image;

@@ -6,7 +6,7 @@ namespace {
 
 bool equal(const vulkan::TraceConstants& a, const vulkan::TraceConstants& b) {
     return a.tracer == b.tracer && a.count == b.count && a.count_rule == b.count_rule &&
-           a.hole_threshold == b.hole_threshold;
+           a.fan_start == b.fan_start && a.hole_threshold == b.hole_threshold;
 }
 
 } // namespace

@@ -21,9 +21,12 @@ namespace spa::render {
 struct MapPlacement {
     std::uint32_t node = 0; // index into Scene::nodes
     const SphericalMap* map = nullptr;
-    std::uint32_t layers = 0;  // as many at most; 0: all
-    bool holes = false;        // rays pass where less than half of a texel is covered (SPA_RECORD_COVERAGE)
-    bool whole_sphere = false; // for tracing by fan or march (vulkan::LoadOptions)
+    std::uint32_t layers = 0; // as many at most; 0: all
+    bool holes = false;       // rays pass where less than half of a texel is covered (SPA_RECORD_COVERAGE)
+    // For tracing by fan or march: their box is that of the whole sphere (vulkan::LoadOptions), and rays
+    // leave the solid that they begin in, because the points that hit lie in the solid and are to be lit all
+    // the same.
+    bool test_points = false;
 };
 
 struct SceneMemory {                       // bytes on the device

@@ -29,11 +29,12 @@ VkShaderStageFlagBits stage_bit(HitStage stage) {
 }
 
 VkSpecializationInfo specialization(const TraceConstants& constants) {
-    static constexpr std::array<VkSpecializationMapEntry, 4> entries{{
+    static constexpr std::array<VkSpecializationMapEntry, 5> entries{{
         {0, offsetof(TraceConstants, tracer), sizeof(std::uint32_t)},
         {1, offsetof(TraceConstants, count), sizeof(std::uint32_t)},
         {2, offsetof(TraceConstants, count_rule), sizeof(std::uint32_t)},
         {3, offsetof(TraceConstants, hole_threshold), sizeof(float)},
+        {4, offsetof(TraceConstants, fan_start), sizeof(std::uint32_t)},
     }};
     return {std::uint32_t(entries.size()), entries.data(), sizeof constants, &constants};
 }

@@ -28,6 +28,7 @@ struct TraceConstants {
     std::uint32_t count = 10;     // test rays of the fan, steps of the march
     std::uint32_t count_rule = 0; // SPA_FAN_FIXED, SPA_FAN_BY_DISTANCE
     float hole_threshold = 0.5F;  // of coverage, for records with SPA_RECORD_COVERAGE
+    std::uint32_t fan_start = 0;  // SPA_FAN_START_HITS, SPA_FAN_START_LEAVES
 };
 
 // For VkPipelineShaderStageCreateInfo::pSpecializationInfo; refers to `constants`, which outlives its use.

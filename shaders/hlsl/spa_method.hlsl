@@ -4,6 +4,7 @@
 //   SPA_METHOD      SPA_PROJECTIVE (the default), SPA_FAN or SPA_MARCH
 //   SPA_COUNT       test rays of the fan, steps of the march; without it, their defaults
 //   SPA_COUNT_RULE  SPA_FAN_FIXED (the default) or SPA_FAN_BY_DISTANCE
+//   SPA_FAN_START   SPA_FAN_START_HITS (the default) or SPA_FAN_START_LEAVES
 //   SPA_THRESHOLD   of coverage, for records with SPA_RECORD_COVERAGE; without it SPA_HOLE_THRESHOLD
 #ifndef SPA_METHOD_HLSL
 #define SPA_METHOD_HLSL
@@ -12,6 +13,9 @@
 
 #ifndef SPA_METHOD
 #define SPA_METHOD SPA_PROJECTIVE
+#endif
+#ifndef SPA_FAN_START
+#define SPA_FAN_START SPA_FAN_START_HITS
 #endif
 #ifndef SPA_COUNT_RULE
 #define SPA_COUNT_RULE SPA_FAN_FIXED
@@ -27,6 +31,7 @@ SpaMethod spa_chosen_method() {
     method.march.steps = SPA_COUNT;
 #endif
     method.fan.count_rule = SPA_COUNT_RULE;
+    method.fan.start = SPA_FAN_START;
     return method;
 }
 

@@ -99,8 +99,8 @@ TEST_F(DxrMapObject, CompilesAsManyLayersAsAskedFor) {
     dxr::MapObject object(&device, baked().map, options);
     object.record(&commands);
     const trace::TraceMap expected(baked().map.parts[1], options.compile);
-    EXPECT_TRUE(
-        std::ranges::equal(words_at(object.shader_record(1).image, expected.words().size()), expected.words()));
+    EXPECT_TRUE(std::ranges::equal(words_at(object.shader_record(1).image, expected.words().size()),
+                                   expected.words()));
 }
 
 TEST_F(DxrMapObject, BuildsOneStructureOfTheImagesBoxAPart) {

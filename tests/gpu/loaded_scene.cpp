@@ -16,6 +16,7 @@ shader::SpaMethod method_of(const vulkan::TraceConstants& constants) {
     shader::SpaMethod method = shader::spa_method_defaults(constants.tracer);
     method.fan.count = constants.count;
     method.fan.count_rule = constants.count_rule;
+    method.fan.start = constants.fan_start;
     method.march.steps = constants.count;
     return method;
 }

@@ -34,5 +34,5 @@ int main(int argc, char**) {
             return 1;
         }
     const spa::vulkan::TraceConstants constants;
-    return spa::vulkan::specialization(constants).mapEntryCount == 4 ? 0 : 1;
+    return spa::vulkan::specialization(constants).mapEntryCount == 5 ? 0 : 1;
 }
