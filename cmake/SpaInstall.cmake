@@ -27,7 +27,7 @@ set(core_headers affine.h direction_map.h element_format.h error.h spherical_map
 set(container_headers check.h format.h limits.h reader.h source.h status.h writer.h)
 list(TRANSFORM core_headers PREPEND libspa/core/)
 list(TRANSFORM container_headers PREPEND formats/container/)
-set(trace_map_headers ray.h space.h trace_map.h)
+set(trace_map_headers packed_images.h ray.h space.h trace_map.h)
 list(TRANSFORM trace_map_headers PREPEND libspa/trace/)
 install(FILES ${trace_map_headers}
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spa/libspa/trace COMPONENT development)

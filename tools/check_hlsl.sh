@@ -139,7 +139,7 @@ mkdir -p "$headers"
 for header in directx zstd.h xxhash.h; do ln -sfn "/usr/include/$header" "$headers/$header"; done
 count=0
 for source in libspa/core/*.cpp libspa/dxr/*.cpp libspa/trace/map_*.cpp libspa/trace/node_pyramid.cpp \
-    libspa/trace/trace_map.cpp formats/container/*.cpp; do
+    libspa/trace/packed_images.cpp libspa/trace/trace_map.cpp formats/container/*.cpp; do
     [ "$source" != formats/container/file_io_posix.cpp ] || continue
     $mingw -std=c++20 -O2 -Wall -Wextra -Wconversion -Werror -ffp-contract=off -isystem "$headers" -c \
         -o "$folder/object.o" "$source"

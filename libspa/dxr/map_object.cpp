@@ -7,28 +7,17 @@
 #include "../core/error.h"
 #include "../trace/space.h"
 
-#include <array>
 #include <cstddef>
 #include <cstring>
-#include <span>
 #include <string>
 
 namespace spa::dxr {
 namespace {
 
-constexpr std::uint64_t image_alignment = 256; // root views need 4; images of both APIs lie the same way
 constexpr std::uint64_t structure_alignment = D3D12_RAYTRACING_ACCELERATION_STRUCTURE_BYTE_ALIGNMENT;
-static_assert(image_alignment % D3D12_RAYTRACING_AABB_BYTE_ALIGNMENT == 0);
+static_assert(trace::packed_alignment % D3D12_RAYTRACING_AABB_BYTE_ALIGNMENT == 0);
+static_assert(sizeof(trace::PackedBox) == sizeof(D3D12_RAYTRACING_AABB));
 static_assert(sizeof(D3D12_RAYTRACING_AABB) % D3D12_RAYTRACING_AABB_BYTE_ALIGNMENT == 0);
-// Boxes are wider by this share of R: the surface they are made for is only met to rounding.
-constexpr float box_margin = 1e-6F;
-
-D3D12_RAYTRACING_AABB box_of(const shader::SpaMap& map, bool whole_sphere) {
-    // latlong images do not say where their surface is.
-    if (whole_sphere || map.mapping != SPA_OCTAHEDRAL) return {-1, -1, -1, 1, 1, 1};
-    return {map.box_low.x - box_margin,  map.box_low.y - box_margin,  map.box_low.z - box_margin,
-            map.box_high.x + box_margin, map.box_high.y + box_margin, map.box_high.z + box_margin};
-}
 
 void require_ray_tracing(ID3D12Device5* device) {
     D3D12_FEATURE_DATA_D3D12_OPTIONS5 options{};
@@ -73,31 +62,15 @@ void wait_for_builds(ID3D12GraphicsCommandList4* commands, ID3D12Resource* struc
 
 MapObject::MapObject(ID3D12Device5* device, const SphericalMap& map, const LoadOptions& options)
     : coverage_(options.coverage) {
-    if (map.parts.empty()) throw Error(ExitCode::usage, "there is no part to load: was the file opened?");
     require_ray_tracing(device);
     write_images(device, map, options);
     create_structures(device);
 }
 
 void MapObject::write_images(ID3D12Device5* device, const SphericalMap& map, const LoadOptions& options) {
-    // Without images first: those go straight from the file's mapping to staging memory.
-    std::vector<trace::TraceMap> traced;
-    std::uint64_t size = 0;
-    for (const Part& part : map.parts) {
-        traced.emplace_back(part, trace::CompileOptions{options.compile.layers, false});
-        LoadedPart& loaded = parts_.emplace_back();
-        loaded.placement = part;
-        loaded.placement.layers.clear(); // views that may not outlive this call
-        loaded.placement.mixed = {};
-        loaded.image = size;
-        loaded.image_words =
-            options.compile.images ? traced.back().size_with_images(part) : traced.back().words().size();
-        size = align(size + loaded.image_words * sizeof(std::uint32_t), image_alignment);
-    }
-    for (LoadedPart& part : parts_) {
-        part.box = size;
-        size += sizeof(D3D12_RAYTRACING_AABB);
-    }
+    const trace::PackedImages packed(map, options.compile, options.whole_sphere);
+    for (const trace::PackedPart& part : packed.parts()) parts_.emplace_back().packed = part;
+    const std::uint64_t size = packed.bytes();
     if (size / sizeof(std::uint32_t) > UINT32_MAX)
         throw Error(ExitCode::unsupported, "this map is too large for one buffer: its trace images have " +
                                                std::to_string(size) + " bytes; load it with fewer layers");
@@ -106,17 +79,7 @@ void MapObject::write_images(ID3D12Device5* device, const SphericalMap& map, con
     const D3D12_RANGE nothing_read{0, 0};
     void* mapped = nullptr;
     check(staging_->Map(0, &nothing_read, &mapped), "ID3D12Resource::Map");
-    auto* const bytes = static_cast<std::byte*>(mapped);
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-        const std::span<std::uint32_t> words(reinterpret_cast<std::uint32_t*>(bytes + parts_[i].image),
-                                             parts_[i].image_words);
-        if (options.compile.images)
-            traced[i].write_with_images(map.parts[i], words);
-        else
-            std::memcpy(words.data(), traced[i].words().data(), words.size_bytes());
-        const D3D12_RAYTRACING_AABB box = box_of(traced[i].map(), options.whole_sphere);
-        std::memcpy(bytes + parts_[i].box, &box, sizeof box);
-    }
+    packed.write(map, {static_cast<std::byte*>(mapped), std::size_t(size)});
     staging_->Unmap(0, nullptr);
     images_ = make_buffer(device, size, BufferUse::data);
     memory_.images = size;
@@ -129,7 +92,7 @@ D3D12_RAYTRACING_GEOMETRY_DESC MapObject::box_geometry(const LoadedPart& part) c
     geometry.Flags = coverage_ ? D3D12_RAYTRACING_GEOMETRY_FLAG_NO_DUPLICATE_ANYHIT_INVOCATION
                                : D3D12_RAYTRACING_GEOMETRY_FLAG_OPAQUE;
     geometry.AABBs.AABBCount = 1;
-    geometry.AABBs.AABBs.StartAddress = images_->GetGPUVirtualAddress() + part.box;
+    geometry.AABBs.AABBs.StartAddress = images_->GetGPUVirtualAddress() + part.packed.box;
     geometry.AABBs.AABBs.StrideInBytes = sizeof(D3D12_RAYTRACING_AABB);
     return geometry;
 }
@@ -192,23 +155,20 @@ std::uint32_t MapObject::record_flags(std::uint32_t flags) const {
 }
 
 ShaderRecord MapObject::shader_record(std::uint32_t part, std::uint32_t flags) const {
-    return {images_->GetGPUVirtualAddress() + parts_[part].image, record_flags(flags), part};
+    return {images_->GetGPUVirtualAddress() + parts_[part].packed.image, record_flags(flags), part};
 }
 
 QueryRecord MapObject::query_record(std::uint32_t part, std::uint32_t buffer, std::uint32_t flags) const {
-    return {std::uint32_t(parts_[part].image / sizeof(std::uint32_t)), buffer, record_flags(flags), part};
+    return {std::uint32_t(parts_[part].packed.image / sizeof(std::uint32_t)), buffer, record_flags(flags), part};
 }
 
 D3D12_RAYTRACING_INSTANCE_DESC MapObject::instance(std::uint32_t part, const Affine& object_to_world,
                                                    const InstanceOptions& options) const {
-    const trace::MapSpace space = trace::map_space(parts_[part].placement, object_to_world);
+    const trace::MapSpace space = trace::map_space(parts_[part].packed.placement, object_to_world);
     D3D12_RAYTRACING_INSTANCE_DESC instance{};
-    const std::array<double, 3> origin{space.origin.x, space.origin.y, space.origin.z};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3d& row = space.to_world.row[i];
-        const std::array<double, 4> values{row.x, row.y, row.z, origin[i]};
-        for (std::size_t j = 0; j < 4; ++j) instance.Transform[i][j] = float(values[j]);
-    }
+    const auto rows = trace::instance_rows(space);
+    static_assert(sizeof rows == sizeof instance.Transform);
+    std::memcpy(instance.Transform, rows.data(), sizeof rows);
     instance.InstanceID = options.id & 0xFFFFFFU;
     instance.InstanceMask = options.mask;
     instance.InstanceContributionToHitGroupIndex = options.hit_record & 0xFFFFFFU;

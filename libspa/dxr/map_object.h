@@ -27,7 +27,7 @@
 
 #include "../core/affine.h"
 #include "../core/spherical_map.h"
-#include "../trace/trace_map.h"
+#include "../trace/packed_images.h"
 
 #include <cstdint>
 #include <vector>
@@ -110,10 +110,7 @@ public:
 
 private:
     struct LoadedPart {
-        Part placement;          // centre, radius and frame; without layers
-        std::uint64_t image = 0; // where in images_
-        std::size_t image_words = 0;
-        std::uint64_t box = 0;                    // where in images_ its AABB is
+        trace::PackedPart packed;                 // where in images_
         std::uint64_t structure = 0, scratch = 0; // where in structures_ and scratch_
     };
     void write_images(ID3D12Device5* device, const SphericalMap& map, const LoadOptions& options);

@@ -9,7 +9,9 @@
 #include "../core/affine.h"
 #include "../core/spherical_map.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace spa::trace {
 
@@ -29,6 +31,17 @@ constexpr MapSpace map_space(const Part& part, const Affine& object_to_world = {
     space.to_map = inverse(space.to_world);
     space.origin = transform_point(object_to_world, part.center);
     return space;
+}
+
+// Rows of the matrix map space -> world, as instances of ray-tracing interfaces have it; rounded to float.
+inline std::array<std::array<float, 4>, 3> instance_rows(const MapSpace& space) {
+    const std::array<double, 3> origin{space.origin.x, space.origin.y, space.origin.z};
+    std::array<std::array<float, 4>, 3> rows{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d& row = space.to_world.row[i];
+        rows[i] = {float(row.x), float(row.y), float(row.z), float(origin[i])};
+    }
+    return rows;
 }
 
 inline Ray to_map(const MapSpace& space, const Ray& ray) {

@@ -5,70 +5,30 @@
 #include "submit.h"
 
 #include "../../shaders/spa_hit.h"
-#include "../core/error.h"
 #include "../trace/space.h"
 
-#include <array>
 #include <cstring>
 
 namespace spa::vulkan {
 namespace {
 
-constexpr VkDeviceSize image_alignment = 256; // the greatest that any device asks of storage buffers
-// Boxes are wider by this share of R: the surface they are made for is only met to rounding.
-constexpr float box_margin = 1e-6F;
-
-VkAabbPositionsKHR box_of(const shader::SpaMap& map, bool whole_sphere) {
-    // latlong images do not say where their surface is.
-    if (whole_sphere || map.mapping != SPA_OCTAHEDRAL) return {-1, -1, -1, 1, 1, 1};
-    return {map.box_low.x - box_margin,  map.box_low.y - box_margin,  map.box_low.z - box_margin,
-            map.box_high.x + box_margin, map.box_high.y + box_margin, map.box_high.z + box_margin};
-}
+static_assert(sizeof(trace::PackedBox) == sizeof(VkAabbPositionsKHR));
 
 } // namespace
 
 MapObject::MapObject(const Device& device, const SphericalMap& map, const LoadOptions& options)
     : device_(&device), coverage_(options.coverage) {
-    if (map.parts.empty()) throw Error(ExitCode::usage, "there is no part to load: was the file opened?");
     write_images(map, options);
     create_structures();
 }
 
 void MapObject::write_images(const SphericalMap& map, const LoadOptions& options) {
-    // Without images first: those go straight from the file's mapping to staging memory.
-    std::vector<trace::TraceMap> traced;
-    VkDeviceSize size = 0;
-    for (const Part& part : map.parts) {
-        traced.emplace_back(part, trace::CompileOptions{options.compile.layers, false});
-        LoadedPart& loaded = parts_.emplace_back();
-        loaded.placement = part;
-        loaded.placement.layers.clear(); // views that may not outlive this call
-        loaded.placement.mixed = {};
-        loaded.image = size;
-        const std::size_t words =
-            options.compile.images ? traced.back().size_with_images(part) : traced.back().words().size();
-        loaded.image_words = words;
-        size = align(size + words * sizeof(std::uint32_t), image_alignment);
-    }
-    memory_.images = size;
-    for (LoadedPart& part : parts_) {
-        part.box = size;
-        size += sizeof(VkAabbPositionsKHR);
-    }
-
-    staging_ = Buffer(*device_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload);
-    std::byte* const bytes = staging_.bytes().data();
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-        const std::span<std::uint32_t> words(reinterpret_cast<std::uint32_t*>(bytes + parts_[i].image),
-                                             parts_[i].image_words);
-        if (options.compile.images)
-            traced[i].write_with_images(map.parts[i], words);
-        else
-            std::memcpy(words.data(), traced[i].words().data(), words.size_bytes());
-        const VkAabbPositionsKHR box = box_of(traced[i].map(), options.whole_sphere);
-        std::memcpy(bytes + parts_[i].box, &box, sizeof box);
-    }
-    images_ = Buffer(*device_, size,
+    const trace::PackedImages packed(map, options.compile, options.whole_sphere);
+    for (const trace::PackedPart& part : packed.parts()) parts_.emplace_back().packed = part;
+    memory_.images = packed.bytes();
+    staging_ = Buffer(*device_, packed.bytes(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload);
+    packed.write(map, staging_.bytes());
+    images_ = Buffer(*device_, packed.bytes(),
                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                          VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR,
                      MemoryUse::device);
@@ -82,7 +42,7 @@ VkAccelerationStructureGeometryKHR MapObject::box_geometry(std::uint32_t part) c
         coverage_ ? VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR : VK_GEOMETRY_OPAQUE_BIT_KHR;
     VkAccelerationStructureGeometryAabbsDataKHR& boxes = geometry.geometry.aabbs;
     boxes.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR;
-    boxes.data.deviceAddress = images_.address() + parts_[part].box;
+    boxes.data.deviceAddress = images_.address() + parts_[part].packed.box;
     boxes.stride = sizeof(VkAabbPositionsKHR);
     return geometry;
 }
@@ -146,20 +106,17 @@ void MapObject::finish() {
 
 ShaderRecord MapObject::shader_record(std::uint32_t part, std::uint32_t flags) const {
     if (coverage_) flags |= SPA_RECORD_COVERAGE;
-    return {images_.address() + parts_[part].image, flags, part};
+    return {images_.address() + parts_[part].packed.image, flags, part};
 }
 
 VkAccelerationStructureInstanceKHR MapObject::instance(std::uint32_t part, const Affine& object_to_world,
                                                        const InstanceOptions& options) const {
     const LoadedPart& loaded = parts_[part];
-    const trace::MapSpace space = trace::map_space(loaded.placement, object_to_world);
+    const trace::MapSpace space = trace::map_space(loaded.packed.placement, object_to_world);
     VkAccelerationStructureInstanceKHR instance{};
-    const std::array<double, 3> translation{space.origin.x, space.origin.y, space.origin.z};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3d& row = space.to_world.row[i];
-        const std::array<double, 4> values{row.x, row.y, row.z, translation[i]};
-        for (std::size_t j = 0; j < 4; ++j) instance.transform.matrix[i][j] = float(values[j]);
-    }
+    const auto rows = trace::instance_rows(space);
+    static_assert(sizeof rows == sizeof instance.transform.matrix);
+    std::memcpy(instance.transform.matrix, rows.data(), sizeof rows);
     instance.instanceCustomIndex = options.custom_index & 0xFFFFFFU;
     instance.mask = options.mask;
     instance.instanceShaderBindingTableRecordOffset = options.hit_record & 0xFFFFFFU;

@@ -24,7 +24,7 @@
 
 #include "../core/affine.h"
 #include "../core/spherical_map.h"
-#include "../trace/trace_map.h"
+#include "../trace/packed_images.h"
 
 #include <cstdint>
 #include <span>
@@ -60,7 +60,7 @@ struct InstanceOptions {
 };
 
 struct MemoryUsed {              // bytes
-    VkDeviceSize images = 0;     // trace images
+    VkDeviceSize images = 0;     // trace images and boxes
     VkDeviceSize structures = 0; // acceleration structures
     VkDeviceSize temporary = 0;  // staging and scratch, until finish()
 };
@@ -92,10 +92,7 @@ public:
 
 private:
     struct LoadedPart {
-        Part placement;         // without layers
-        VkDeviceSize image = 0; // where in images_
-        std::size_t image_words = 0;
-        VkDeviceSize box = 0; // where in images_ its AABB is
+        trace::PackedPart packed; // where in images_
         VkDeviceSize structure_offset = 0, structure_size = 0, scratch_offset = 0;
         AccelerationStructure structure;
     };

@@ -2,6 +2,7 @@
 // `spa render` from end to end, on software Vulkan: an octahedron over a floor, and a map of the octahedron.
 #include "process.h"
 #include "schema.h"
+#include "vulkan_test.h"
 
 #include "../../formats/import/linear_picture.h"
 
@@ -48,19 +49,10 @@ private:
     std::optional<std::string> before_;
 };
 
-class Render : public testing::Test {
+class Render : public VulkanVerbTest {
 protected:
     void SetUp() override {
-        const Outcome outcome = run({"render", "--list-devices", "--format", "json"});
-        std::string why = outcome.err;
-        if (outcome.exit_code == 0) {
-            const json devices = json::parse(outcome.out)["devices"];
-            const bool traces = std::any_of(devices.begin(), devices.end(),
-                                            [](const json& device) { return device["missing"] == ""; });
-            why = traces ? "" : "no Vulkan device here traces rays";
-        }
-        if (!why.empty() && std::getenv("SPA_REQUIRE_VULKAN") != nullptr) FAIL() << why;
-        if (!why.empty()) GTEST_SKIP() << why;
+        VulkanVerbTest::SetUp();
         write_file(path("scene.obj"), std::string(ball) + floor_below);
         write_file(path("ball.obj"), ball);
     }
