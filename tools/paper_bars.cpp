@@ -33,10 +33,16 @@ void rates(const PaperTables& tables, int level, double limit, std::vector<Paper
 void against_lod(const PaperTables& tables, int level, std::vector<PaperBar>& bars) {
     const PaperCell* const map = cell_of(tables, level, "projective");
     const PaperCosts* const costs = costs_of(tables, level);
-    if (map == nullptr || costs == nullptr || !costs->lod_triangles) return;
-    bars.push_back({"secondary rays a second, projective over simplified mesh of equal error, level " +
-                        std::to_string(level),
-                    rays_a_second(*map) / costs->lod_rays_a_second, 2, true});
+    if (map == nullptr || costs == nullptr) return;
+    const auto add = [&](const char* what, const std::optional<PaperCosts::LodRates>& lod) {
+        if (lod)
+            bars.push_back(
+                {std::string("secondary rays a second, projective over simplified mesh of equal ") + what +
+                     " |dt|, level " + std::to_string(level),
+                 rays_a_second(*map) / lod->rays_a_second, 2, true});
+    };
+    add("mean", costs->lod_by_mean);
+    add("median", costs->lod_by_median);
 }
 
 void errors(const PaperTables& tables, std::vector<PaperBar>& bars) {

@@ -80,9 +80,8 @@ std::string error_script(const PaperTables& tables) {
     for (std::size_t i = 0; i < std::size(styles); ++i)
         if (series.contains(styles[i].method))
             text += block("s" + std::to_string(i), series.at(styles[i].method));
-    text += "set title 'Error of the indirect light against the time of a secondary ray, " +
-            std::to_string(most) +
-            " rays a pixel; a point a level of the boot'\n"
+    text += "set title 'Indirect light, " + std::to_string(most) +
+            " rays a pixel; one point a level of the boot'\n"
             "set logscale xy\nset format y '10^{%T}'\nset xlabel 'nanoseconds a secondary ray, its shadow "
             "ray included'\n"
             "set ylabel 'relMSE against triangles with the same directions'\nset key outside right\nplot ";

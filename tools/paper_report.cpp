@@ -55,11 +55,15 @@ Json costs_json(const PaperCosts& costs) {
                  {"map_first_frame_seconds", costs.map_first_frame},
                  {"glb_bytes", costs.glb_bytes},
                  {"spa_bytes", costs.spa_bytes},
-                 {"map_mean_distance", costs.map_error}};
-    if (costs.lod_triangles)
-        json["lod"] = {{"triangles", *costs.lod_triangles},
-                       {"mean_distance", costs.lod_error},
-                       {"secondary_rays_a_second", costs.lod_rays_a_second}};
+                 {"map_distance", {{"mean", costs.map_mean}, {"median", costs.map_median}}}};
+    const auto add = [&](const char* key, const std::optional<PaperCosts::LodRates>& lod) {
+        if (lod)
+            json[key] = {{"triangles", lod->triangles},
+                         {"distance", {{"mean", lod->mean}, {"median", lod->median}}},
+                         {"secondary_rays_a_second", lod->rays_a_second}};
+    };
+    add("lod_by_mean", costs.lod_by_mean);
+    add("lod_by_median", costs.lod_by_median);
     return json;
 }
 
@@ -106,11 +110,15 @@ std::string table_text(const PaperTables& tables, const PaperCosts& costs) {
     return text;
 }
 
+std::string triangles_text(const std::optional<PaperCosts::LodRates>& lod) {
+    return lod ? std::to_string(lod->triangles) : "none";
+}
+
 std::string costs_text(const PaperTables& tables) {
     std::string text =
         "what the object costs on the device, as triangles and as a map of one layer\n"
         "level  triangles   memory: triangles + structure        map + structure   build     load"
-        "   file to first frame: triangles  map   equal simplified mesh\n";
+        "   file to first frame: triangles  map   simplified meshes of equal mean, median |dt|\n";
     for (const PaperCosts& costs : tables.costs) {
         text +=
             pad_left(std::to_string(costs.level), 5) + pad_left(std::to_string(costs.triangles), 11) +
@@ -121,7 +129,7 @@ std::string costs_text(const PaperTables& tables) {
             pad_left(fixed(costs.map_load_seconds, 3) + " s", 9) +
             pad_left(fixed(costs.triangle_first_frame, 2) + " s", 22) +
             pad_left(fixed(costs.map_first_frame, 2) + " s", 13) +
-            pad_left(costs.lod_triangles ? std::to_string(*costs.lod_triangles) + " triangles" : "none", 24) +
+            pad_left(triangles_text(costs.lod_by_mean) + ", " + triangles_text(costs.lod_by_median), 28) +
             '\n';
     }
     return text;

@@ -91,8 +91,8 @@ private:
             if (kind == MapKind::one_layer) {
                 step(level, "from the file to the first frame");
                 first_frames(scene, object, map.map, costs);
-                step(level, "simplified mesh of equal error");
-                run_lod(scene, object, map.map, costs);
+                step(level, "simplified meshes of equal error");
+                run_lods(scene, object, map.map, costs);
             }
         }
     }
@@ -164,22 +164,26 @@ private:
             });
     }
 
-    // How fast secondary rays are on the simplified mesh that is as exact as the map.
-    void run_lod(const PaperScene& scene, const Model& object, const SphericalMap& map,
-                 PaperCosts& costs) const {
-        const measure::LodPeer equal = measure::lod_peer(object, map.parts.front());
-        costs.map_error = equal.map_error;
-        if (!equal.lod) return;
-        costs.lod_error = equal.lod_error;
-        costs.lod_triangles = equal.lod->triangles.size();
-        const Scene with_lod =
-            with_object(scene, equal.lod->positions, equal.lod->normals, equal.lod->triangles);
+    // How fast secondary rays are on simplified meshes that are as exact as the map.
+    void run_lods(const PaperScene& scene, const Model& object, const SphericalMap& map,
+                  PaperCosts& costs) const {
+        const measure::LodPeer peer = measure::lod_peer(object, map.parts.front());
+        costs.map_mean = peer.map_mean;
+        costs.map_median = peer.map_median;
+        if (peer.by_mean) costs.lod_by_mean = rates_of(scene, *peer.by_mean);
+        if (peer.by_median) costs.lod_by_median = rates_of(scene, *peer.by_median);
+    }
+
+    PaperCosts::LodRates rates_of(const PaperScene& scene, const measure::MeasuredLod& measured) const {
+        const measure::Lod& lod = measured.lod;
+        const Scene with_lod = with_object(scene, lod.positions, lod.normals, lod.triangles);
         const auto device_scene = on_device(gpu_, with_lod, scene.object, nullptr, true);
         render::Settings settings = this->settings(paper_method(triangles_name), scene);
         settings.samples = lod_samples;
         render::FrameTimes times;
         static_cast<void>(render::render(gpu_, *device_scene, settings, &times));
-        costs.lod_rays_a_second = double(times.secondary_rays) / times.secondary;
+        return {lod.triangles.size(), measured.mean, measured.median,
+                double(times.secondary_rays) / times.secondary};
     }
 
     const render::Gpu& gpu_;

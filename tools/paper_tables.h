@@ -34,11 +34,14 @@ struct PaperCosts {
     double triangle_build_seconds = 0, map_load_seconds = 0;
     double triangle_first_frame = 0, map_first_frame = 0; // from the file to the first frame
     std::uint64_t glb_bytes = 0, spa_bytes = 0;
-    // The simplified mesh whose mean |dt| is that of the map or better: its size, and the rate of secondary
-    // rays.
-    std::optional<std::uint64_t> lod_triangles;
-    double lod_error = 0, map_error = 0; // mean |dt|, R
-    double lod_rays_a_second = 0;
+    // Simplified meshes that are as exact as the map, by the mean and by the median of |dt| of random chords.
+    struct LodRates {
+        std::uint64_t triangles = 0;
+        double mean = 0, median = 0; // |dt|, R
+        double rays_a_second = 0;    // secondary ones
+    };
+    double map_mean = 0, map_median = 0;
+    std::optional<LodRates> lod_by_mean, lod_by_median;
 };
 
 struct PaperTables {

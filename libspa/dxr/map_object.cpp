@@ -159,7 +159,8 @@ ShaderRecord MapObject::shader_record(std::uint32_t part, std::uint32_t flags) c
 }
 
 QueryRecord MapObject::query_record(std::uint32_t part, std::uint32_t buffer, std::uint32_t flags) const {
-    return {std::uint32_t(parts_[part].packed.image / sizeof(std::uint32_t)), buffer, record_flags(flags), part};
+    return {std::uint32_t(parts_[part].packed.image / sizeof(std::uint32_t)), buffer, record_flags(flags),
+            part};
 }
 
 D3D12_RAYTRACING_INSTANCE_DESC MapObject::instance(std::uint32_t part, const Affine& object_to_world,

@@ -8,7 +8,7 @@
 #include "../bake/center.h"
 #include "../trace/triangle_scene.h"
 
-#include <utility>
+#include <vector>
 
 namespace spa::measure {
 namespace {
@@ -28,25 +28,28 @@ LodPeer lod_peer(const Model& model, const Part& part) {
     const std::vector<std::uint8_t> no_band(batch.rays().size());
     const auto error_of = [&](TraceMethod& method) {
         method.prepare(batch);
-        return compare_answers(batch.rays(), truth, answers_of(method, batch), no_band).distance.mean;
+        return compare_answers(batch.rays(), truth, answers_of(method, batch), no_band).distance;
     };
 
     LodPeer result;
-    result.map_error = error_of(*map_method(Family::projective, part, std::uint32_t(part.layers.size()), 0));
+    const Distribution map =
+        error_of(*map_method(Family::projective, part, std::uint32_t(part.layers.size()), 0));
+    result.map_mean = map.mean;
+    result.map_median = map.median;
     std::vector<double> targets = default_lod_errors();
     for (double& target : targets) target *= part.radius;
-    for (Lod& lod : simplify(model.positions, model.normals, model.triangles, targets)) {
-        if (lod.triangles.empty()) continue;
+    for (const Lod& lod : simplify(model.positions, model.normals, model.triangles, targets)) {
+        if (lod.triangles.empty() || (result.by_mean && result.by_median)) continue;
         std::vector<Vec3f> positions;
         for (const Vec3f& p : lod.positions)
             positions.push_back(to_float((to_double(p) - part.center) * (1 / part.radius)));
         double build_seconds = 0;
         const auto method = triangle_method(Family::lod, positions, {}, lod.triangles, false, build_seconds);
-        const double error = error_of(*method);
-        if (error > result.map_error) continue;
-        result.lod_error = error;
-        result.lod = std::move(lod);
-        break;
+        const Distribution error = error_of(*method);
+        if (!result.by_mean && error.mean <= map.mean)
+            result.by_mean = MeasuredLod{lod, error.mean, error.median};
+        if (!result.by_median && error.median <= map.median)
+            result.by_median = MeasuredLod{lod, error.mean, error.median};
     }
     return result;
 }

@@ -40,8 +40,8 @@ PackedImages::PackedImages(const SphericalMap& map, const CompileOptions& option
 
 void PackedImages::write(const SphericalMap& map, std::span<std::byte> bytes) const {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-        const std::span<std::uint32_t> words(
-            reinterpret_cast<std::uint32_t*>(bytes.data() + parts_[i].image), parts_[i].words);
+        const std::span<std::uint32_t> words(reinterpret_cast<std::uint32_t*>(bytes.data() + parts_[i].image),
+                                             parts_[i].words);
         if (images_)
             without_images_[i].write_with_images(map.parts[i], words);
         else

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trace images of all parts of a map in one buffer, and behind them the boxes that their acceleration structures
-// are built from: what the run-time loaders (../vulkan, ../dxr) upload.
+// The trace images of all parts of a map in one buffer, and behind them the boxes that their acceleration
+// structures are built from: what the run-time loaders (../vulkan, ../dxr) upload.
 #pragma once
 
 #include "trace_map.h"
@@ -30,8 +30,8 @@ struct PackedPart {
 
 class PackedImages {
 public:
-    // map: at least one part, else Error{usage}; otherwise as TraceMap. whole_sphere: boxes of the parts' spheres,
-    // not of their surfaces; latlong maps have these in any case. O(samples).
+    // map: at least one part, else Error{usage}; otherwise as TraceMap. whole_sphere: boxes of the parts'
+    // spheres, not of their surfaces; latlong maps have these in any case. O(samples).
     PackedImages(const SphericalMap& map, const CompileOptions& options, bool whole_sphere);
 
     [[nodiscard]] const std::vector<PackedPart>& parts() const { return parts_; }

@@ -58,6 +58,8 @@ RenderSurface map_surface(uint custom_index, SpaHit hit, SpaShade shade, mat4x3 
     surface.t = t;
     surface.normal = spa_unit((shade.normal * to_object).xyz) * side;
     surface.plane = spa_unit((hit.normal * to_object).xyz) * side;
+    // A test point has no surface around it: the paper lights it by the stored normal alone.
+    if (spa_tracer == SPA_FAN) surface.plane = surface.normal;
     surface.kind = SPA_KIND_MAP + hit.side;
     surface.offset = instance.offset;
     surface.albedo = shade.color;
