@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, LoadedMaps,
                          testing::Values(Case{"projective", {0, 10, 0, 0.5F}, octahedral, 1U << 19},
                                          Case{"fan", {1, 10, 0, 0.5F}, octahedral, 1U << 16},
                                          Case{"fan_that_leaves", {1, 10, 0, 0.5F, 1}, octahedral, 1U << 16},
-                    Case{"fan_by_distance", {1, 50, 1, 0.5F}, latlong, 1U << 16},
+                                         Case{"fan_by_distance", {1, 50, 1, 0.5F}, latlong, 1U << 16},
                                          Case{"sphere", {1, 0, 0, 0.5F}, latlong, 1U << 16},
                                          Case{"march", {2, 32, 0, 0.5F}, latlong, 1U << 16}),
                          [](const auto& given) { return given.param.name; });
