@@ -166,6 +166,8 @@ void render_scene(const RenderArguments& arguments) {
     spa::import::SceneResult source = read_scene(arguments);
     check_outputs(arguments, source.report);
     const std::vector<PlacedMap> maps = place_maps(source.scene, arguments);
+    for (const std::string& sentence : misfits(source.scene, maps))
+        std::cerr << "spa: warning: " << sentence << '\n';
     const double read_seconds = reading.seconds();
     const render::Settings settings = complete_scene(source.scene, arguments);
     InterruptGuard::check();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -64,12 +65,44 @@ struct Box {
     Vec3d low, high;
 };
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Box no_box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+
+void grow(Box& box, Vec3d p) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+}
+
+Vec3d middle(const Box& box) { return (box.low + box.high) * 0.5; }
+double half_diagonal(const Box& box) { return length(box.high - box.low) / 2; }
+
 Box bounds(const Model& model) {
-    Box box{to_double(model.positions.front()), to_double(model.positions.front())};
-    for (const Vec3f position : model.positions) {
-        const Vec3d p = to_double(position);
-        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    Box box = no_box;
+    for (const Vec3f position : model.positions) grow(box, to_double(position));
+    return box;
+}
+
+// Of what the node and those below it draw, in the space that `from_world` leads to.
+Box bounds_of(const Scene& scene, std::uint32_t node, const Affine& from_world) {
+    std::vector<bool> of_node(scene.nodes.size()); // a node comes behind its parent
+    for (std::uint32_t i = node; i < scene.nodes.size(); ++i)
+        of_node[i] = i == node || (scene.nodes[i].parent != no_index && of_node[scene.nodes[i].parent]);
+    Box box = no_box;
+    for (std::size_t i = 0; i < scene.model.triangles.size(); ++i) {
+        if (!of_node[scene.triangle_nodes[i]]) continue;
+        for (const std::uint32_t vertex : scene.model.triangles[i].vertex)
+            grow(box, transform_point(from_world, to_double(scene.model.positions[vertex])));
+    }
+    return box;
+}
+
+// The box of the cubes whose corners lie on the parts' spheres: as large as an object that fills them.
+Box sphere_bounds(const SphericalMap& map) {
+    Box box = no_box;
+    for (const Part& part : map.parts) {
+        const double half = part.radius * std::cbrt(std::abs(determinant(part.frame))) / std::sqrt(3.0);
+        grow(box, part.center - Vec3d{half, half, half});
+        grow(box, part.center + Vec3d{half, half, half});
     }
     return box;
 }
@@ -90,6 +123,31 @@ std::vector<std::uint32_t> find_nodes(const Scene& scene, const std::string& sce
                             [&](std::uint32_t above) { return is_below(scene, i, above); });
     });
     return outermost;
+}
+
+std::vector<std::string> misfits(const Scene& scene, const std::vector<PlacedMap>& maps) {
+    std::vector<std::string> sentences;
+    for (const PlacedMap& map : maps) {
+        const Box of_map = sphere_bounds(map.file.map());
+        for (const std::uint32_t node : map.nodes) {
+            const Box box = bounds_of(scene, node, inverse(scene.nodes[node].to_world));
+            const Vec3d center = middle(of_map);
+            const double size = half_diagonal(box);
+            if (!(size > 0)) continue; // it draws nothing
+            // A centre that was moved to see more lies off the middle, and its sphere is larger.
+            const double ratio = half_diagonal(of_map) / size;
+            const double away = length(center - middle(box)) / size;
+            // Of the whole file's triangles, as they lie in the world, rather than of the node's own.
+            const double away_in_world = length(center - middle(bounds_of(scene, node, {}))) / size;
+            if (away < 1 && away < away_in_world + 0.1 && ratio > 0.4 && ratio < 2.5) continue;
+            sentences.push_back(
+                map.file.name + " does not fit node '" + map.node +
+                "': it lies elsewhere or is of another size than the node's triangles. A map takes a "
+                "node's place in the node's own space; was it baked from a file whose nodes are moved?");
+            break;
+        }
+    }
+    return sentences;
 }
 
 std::vector<PlacedMap> place_maps(const Scene& scene, const RenderArguments& arguments) {

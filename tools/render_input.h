@@ -28,6 +28,10 @@ std::vector<std::uint32_t> find_nodes(const Scene& scene, const std::string& sce
 // open_map.
 std::vector<PlacedMap> place_maps(const Scene& scene, const RenderArguments& arguments);
 
+// A sentence for each map that can hardly be one of the node it takes the place of: its spheres lie
+// elsewhere, or are of another size, than the node's triangles in the node's own space. O(triangles * maps).
+std::vector<std::string> misfits(const Scene& scene, const std::vector<PlacedMap>& maps);
+
 // For the renderer; refers to `maps`.
 std::vector<render::MapPlacement> placements(const std::vector<PlacedMap>& maps,
                                              const RenderArguments& arguments);

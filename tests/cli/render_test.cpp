@@ -268,6 +268,16 @@ TEST_F(Render, OtherPicturesBesideAPng) {
     }
 }
 
+TEST_F(Render, AMapThatCanHardlyBeTheNodes) {
+    bake();
+    const Outcome right = render("right.png", {"--map", "ball=ball.spa"});
+    ASSERT_EQ(right.exit_code, 0) << right.err;
+    EXPECT_EQ(right.err.find("does not fit"), std::string::npos) << right.err;
+    const Outcome wrong = render("wrong.png", {"--map", "floor=ball.spa"});
+    EXPECT_EQ(wrong.exit_code, 0) << wrong.err;
+    EXPECT_NE(wrong.err.find("ball.spa does not fit node 'floor'"), std::string::npos) << wrong.err;
+}
+
 TEST_F(Render, NamesThatThereAreNot) {
     write_file(path("ball.spa"), "not looked at");
     const Outcome node = render("out.png", {"--map", "bal=ball.spa"});
