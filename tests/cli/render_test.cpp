@@ -329,6 +329,7 @@ struct BadRender {
     Arguments arguments;
     const char* message;
 };
+void PrintTo(const BadRender& bad, std::ostream* out) { *out << bad.message; }
 
 class RenderUsage : public testing::TestWithParam<BadRender> {};
 
