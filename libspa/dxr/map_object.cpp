@@ -62,13 +62,14 @@ void wait_for_builds(ID3D12GraphicsCommandList4* commands, ID3D12Resource* struc
 
 MapObject::MapObject(ID3D12Device5* device, const SphericalMap& map, const LoadOptions& options)
     : coverage_(options.coverage) {
+    const trace::PackedImages packed(map, options.compile, options.whole_sphere);
     require_ray_tracing(device);
-    write_images(device, map, options);
+    write_images(device, map, packed);
     create_structures(device);
 }
 
-void MapObject::write_images(ID3D12Device5* device, const SphericalMap& map, const LoadOptions& options) {
-    const trace::PackedImages packed(map, options.compile, options.whole_sphere);
+void MapObject::write_images(ID3D12Device5* device, const SphericalMap& map,
+                             const trace::PackedImages& packed) {
     for (const trace::PackedPart& part : packed.parts()) parts_.emplace_back().packed = part;
     const std::uint64_t size = packed.bytes();
     if (size / sizeof(std::uint32_t) > UINT32_MAX)

@@ -113,7 +113,7 @@ private:
         trace::PackedPart packed;                 // where in images_
         std::uint64_t structure = 0, scratch = 0; // where in structures_ and scratch_
     };
-    void write_images(ID3D12Device5* device, const SphericalMap& map, const LoadOptions& options);
+    void write_images(ID3D12Device5* device, const SphericalMap& map, const trace::PackedImages& packed);
     void create_structures(ID3D12Device5* device);
     [[nodiscard]] D3D12_RAYTRACING_GEOMETRY_DESC box_geometry(const LoadedPart& part) const;
     [[nodiscard]] std::uint32_t record_flags(std::uint32_t flags) const;
