@@ -29,7 +29,7 @@ struct PaperMethod {
 // fan 0, 1, 3, 5, 10 and N(d2); projective with one and two layers; triangles last.
 const std::vector<PaperMethod>& paper_methods();
 const PaperMethod& paper_method(const std::string& name);
-inline const char* const triangles_name = "triangles";
+inline constexpr const char* triangles_name = "triangles";
 
 bake::OwnedMap bake_for(const Model& model, MapKind kind);
 
