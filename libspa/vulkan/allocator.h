@@ -27,7 +27,7 @@ public:
     // Memory of a type that `requirements` allow, for a buffer whose address is taken on the device
     // (VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT). Throws Error.
     virtual Allocation allocate(const VkMemoryRequirements& requirements, MemoryUse use) = 0;
-    virtual void free(const Allocation& allocation) noexcept = 0;
+    virtual void release(const Allocation& allocation) noexcept = 0;
 };
 
 } // namespace spa::vulkan

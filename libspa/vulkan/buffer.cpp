@@ -50,7 +50,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 void Buffer::destroy() noexcept {
     if (buffer_ != VK_NULL_HANDLE)
         device_->call().vkDestroyBuffer(device_->handle(), buffer_, device_->callbacks());
-    if (allocation_.memory != VK_NULL_HANDLE) device_->allocator().free(allocation_);
+    if (allocation_.memory != VK_NULL_HANDLE) device_->allocator().release(allocation_);
 }
 
 } // namespace spa::vulkan

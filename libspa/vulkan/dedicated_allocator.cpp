@@ -67,13 +67,13 @@ Allocation DedicatedAllocator::allocate(const VkMemoryRequirements& requirements
                                                        0, &allocation.mapped);
     if (result != VK_SUCCESS) {
         allocation.mapped = nullptr;
-        free(allocation);
+        release(allocation);
         check(result, "vkMapMemory");
     }
     return allocation;
 }
 
-void DedicatedAllocator::free(const Allocation& allocation) noexcept {
+void DedicatedAllocator::release(const Allocation& allocation) noexcept {
     device_.call().vkFreeMemory(device_.handle(), allocation.memory, device_.callbacks()); // unmaps too
 }
 

@@ -12,7 +12,7 @@ class DedicatedAllocator : public Allocator {
 public:
     explicit DedicatedAllocator(const Device& device) : device_(device) {}
     Allocation allocate(const VkMemoryRequirements& requirements, MemoryUse use) override;
-    void free(const Allocation& allocation) noexcept override;
+    void release(const Allocation& allocation) noexcept override;
 
 private:
     const Device& device_;

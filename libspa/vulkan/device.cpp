@@ -17,6 +17,7 @@ std::vector<std::string> extensions_of(const InstanceFunctions& call, VkPhysical
     check(call.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, properties.data()),
           "vkEnumerateDeviceExtensionProperties");
     std::vector<std::string> names;
+    names.reserve(properties.size());
     for (const VkExtensionProperties& extension : properties) names.emplace_back(extension.extensionName);
     return names;
 }

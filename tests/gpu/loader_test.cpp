@@ -260,9 +260,9 @@ public:
         ++alive;
         return below_.allocate(requirements, use);
     }
-    void free(const vulkan::Allocation& allocation) noexcept override {
+    void release(const vulkan::Allocation& allocation) noexcept override {
         --alive;
-        below_.free(allocation);
+        below_.release(allocation);
     }
     int alive = 0;
 
