@@ -73,7 +73,7 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, const Limits
 }
 
 SourceFile describe_source(std::string name, std::span<const std::byte> bytes) {
-    return {std::move(name), bytes.size(), XXH3_64bits(bytes.data(), bytes.size())};
+    return {std::move(name), bytes.size(), XXH3_64bits(bytes.data(), bytes.size()), {}};
 }
 
 void add_source(Report& report, std::string name, std::span<const std::byte> bytes) {
