@@ -9,11 +9,24 @@
 
 #include "../formats/container/writer.h"
 
+#include <tbb/global_control.h>
+
 #include <chrono>
 
 namespace spa::tools {
 
 namespace {
+
+// The bakers keep to the number of threads themselves; the reader does not know it.
+class ThreadLimit {
+public:
+    explicit ThreadLimit(unsigned threads) {
+        if (threads > 0) control_.emplace(tbb::global_control::max_allowed_parallelism, threads);
+    }
+
+private:
+    std::optional<tbb::global_control> control_;
+};
 
 // The output must not replace what the model was made from: the asset or a file that it refers to.
 void check_inputs(const BakeArguments& arguments, const import::Report& source) {
@@ -85,6 +98,7 @@ BakeFacts BakedFile::facts(const BakeArguments& arguments) const {
 
 BakedFile bake_file(const BakeArguments& arguments) {
     const auto start = std::chrono::steady_clock::now();
+    const ThreadLimit threads(arguments.settings.options.threads);
     check_inputs(arguments, {});
     BakedFile baked;
     baked.source = read_asset(arguments);

@@ -48,7 +48,7 @@ void batch(const BatchArguments& arguments) {
     std::optional<PictureStore> pictures;
     if (std::any_of(arguments.reports.begin(), arguments.reports.end(), is_page) && !arguments.dry_run)
         pictures.emplace(list.assets.size());
-    run_batch(report, pictures ? PictureSink([&](std::size_t asset, const std::string& png) {
+    run_batch(report, pictures ? PictureSink([&](std::size_t asset, std::span<const std::byte> png) {
         pictures->put(asset, png);
     })
                                : nullptr);

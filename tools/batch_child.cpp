@@ -13,6 +13,7 @@
 
 #include <limits>
 #include <new>
+#include <span>
 
 namespace spa::tools {
 
@@ -67,10 +68,9 @@ void fail(AssetResult& result) {
 }
 
 // A picture that cannot be made is not worth failing for.
-std::string picture_of(const std::filesystem::path& map) {
+std::vector<std::byte> picture_of(const std::filesystem::path& map) {
     try {
-        const std::vector<std::byte> png = encode_png(thumbnail(open_map(map.string()).map(), picture_size));
-        return {reinterpret_cast<const char*>(png.data()), png.size()};
+        return encode_png(thumbnail(open_map(map.string()).map(), picture_size));
     } catch (const std::exception&) {
         return {};
     }
@@ -113,7 +113,8 @@ std::string run_child(const ChildTask& task) {
     };
     // Messages hold file names, which may be any bytes: CBOR takes them as they are.
     const std::vector<std::uint8_t> head = Json::to_cbor(json);
-    return std::to_string(head.size()) + "\n" + std::string(head.begin(), head.end()) + outcome.picture;
+    return std::to_string(head.size()) + "\n" + std::string(head.begin(), head.end()) +
+           std::string(reinterpret_cast<const char*>(outcome.picture.data()), outcome.picture.size());
 }
 
 ChildOutcome parse_outcome(const std::string& bytes) {
@@ -135,7 +136,8 @@ ChildOutcome parse_outcome(const std::string& bytes) {
         json.at("interrupted").get_to(outcome.interrupted);
         json.at("out_of_memory").get_to(outcome.out_of_memory);
         json.at("output_failed").get_to(outcome.output_failed);
-        outcome.picture = bytes.substr(begin + length);
+        const auto picture = std::as_bytes(std::span(bytes).subspan(begin + length));
+        outcome.picture.assign(picture.begin(), picture.end());
     } catch (const std::exception&) {
         result = {};
         result.status = AssetStatus::failed;

@@ -4,7 +4,9 @@
 
 #include "batch_report.h"
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace spa::tools {
 
@@ -23,7 +25,7 @@ struct ChildOutcome {
     bool interrupted = false;
     bool out_of_memory = false;
     bool output_failed = false; // for a reason that concerns all outputs (OutputError)
-    std::string picture;        // PNG; empty if not wanted or not to be had
+    std::vector<std::byte> picture; // PNG; empty if not wanted or not to be had
 };
 
 // Runs the task and returns the outcome as bytes. Does not throw.

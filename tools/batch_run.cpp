@@ -8,6 +8,9 @@
 #include "output.h"
 #include "worker.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <csignal>
 #include <deque>
@@ -217,6 +220,12 @@ void remove_all_leftovers(const std::vector<BatchAsset>& assets) {
         remove_leftovers(folder, [&ours = ours](const std::string& name) { return ours.contains(name); });
 }
 
+// What oneTBB does once in a process (it looks for its allocator and for other run times in every library folder)
+// costs more than the bake of a small asset. Done here, and without starting a thread, every fork has it.
+void prepare_threading() {
+    tbb::task_arena(1).execute([] { tbb::parallel_for(0, 2, [](int) {}); });
+}
+
 } // namespace
 
 void run_batch(BatchReport& report, const PictureSink& pictures) {
@@ -227,6 +236,7 @@ void run_batch(BatchReport& report, const PictureSink& pictures) {
         check_output_folder(report.arguments.query.output);
         remove_all_leftovers(report.assets);
     }
+    prepare_threading();
     Batch(report, pictures).run();
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -4,14 +4,14 @@
 
 #include "batch_report.h"
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
-#include <string>
+#include <span>
 
 namespace spa::tools {
 
 // Gets the picture of an asset's map as soon as there is one (PNG).
-using PictureSink = std::function<void(std::size_t asset, const std::string& png)>;
+using PictureSink = std::function<void(std::size_t asset, std::span<const std::byte> png)>;
 
 // Fills in report.results, stopped_by and seconds. Assets are begun largest first, so that the last ones are
 // short; as many run at once as arguments.jobs and arguments.memory_bytes allow. No asset can do harm to another:

@@ -10,16 +10,16 @@ PictureStore::PictureStore(std::size_t count) : file_(std::tmpfile()), places_(c
         throw Error(ExitCode::input_output, "no temporary file can be made for the report's pictures; set TMPDIR");
 }
 
-void PictureStore::put(std::size_t index, const std::string& bytes) {
+void PictureStore::put(std::size_t index, std::span<const std::byte> bytes) {
     if (std::fseek(file_.get(), 0, SEEK_END) != 0) return;
     const long offset = std::ftell(file_.get());
     if (offset < 0 || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) return;
     places_[index] = {offset, bytes.size()};
 }
 
-std::string PictureStore::get(std::size_t index) const {
+std::vector<std::byte> PictureStore::get(std::size_t index) const {
     const Place& place = places_[index];
-    std::string bytes(place.length, '\0');
+    std::vector<std::byte> bytes(place.length);
     if (std::fseek(file_.get(), place.offset, SEEK_SET) != 0 ||
         std::fread(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
         return {};

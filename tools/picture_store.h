@@ -2,10 +2,10 @@
 // Many small pictures on disk instead of in memory, for as long as this lives.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <cstdio>
 #include <memory>
-#include <string>
+#include <span>
 #include <vector>
 
 namespace spa::tools {
@@ -15,8 +15,8 @@ public:
     explicit PictureStore(std::size_t count); // throws Error{input_output} if there is no temporary file
 
     // What cannot be written is forgotten: a report without a picture is better than none.
-    void put(std::size_t index, const std::string& bytes);
-    [[nodiscard]] std::string get(std::size_t index) const; // empty if there is none
+    void put(std::size_t index, std::span<const std::byte> bytes);
+    [[nodiscard]] std::vector<std::byte> get(std::size_t index) const; // empty if there is none
 
 private:
     struct Place {

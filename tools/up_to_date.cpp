@@ -13,7 +13,6 @@
 #include <fcntl.h>
 #include <optional>
 #include <span>
-#include <sys/stat.h>
 #include <sys/xattr.h>
 #include <unistd.h>
 #include <vector>
@@ -77,14 +76,6 @@ std::uint64_t number_of(const Json& json, const char* key) {
     return found != json.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
 }
 
-std::optional<FileState> state_of(const fs::path& path) {
-    struct stat status {};
-    if (stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
-    const auto nanoseconds_of = [](const std::timespec& time) { return in_nanoseconds(time); };
-    return FileState{std::uint64_t(status.st_dev), std::uint64_t(status.st_ino), std::uint64_t(status.st_size),
-                     nanoseconds_of(status.st_mtim), nanoseconds_of(status.st_ctim)};
-}
-
 // A source in the asset's folder; none for a name that leads out of it, as no bake writes.
 std::optional<fs::path> source_path(const fs::path& asset, const Json& entry) {
     const fs::path name = name_of(entry);
@@ -107,7 +98,7 @@ std::optional<std::vector<Source>> find_sources(const Recorded& recorded, const 
     std::vector<Source> sources;
     for (const Json& entry : recorded.files) {
         const std::optional<fs::path> path = source_path(asset, entry);
-        const std::optional<FileState> state = path ? state_of(*path) : std::nullopt;
+        const std::optional<FileState> state = path ? import::file_state(*path) : std::nullopt;
         const Json* hash = member(entry, "xxh3", Json::value_t::string);
         if (!state || hash == nullptr || state->size != number_of(entry, "bytes")) return {};
         sources.push_back({*path, *hash, *state});
@@ -156,7 +147,7 @@ std::string hash_of(const Source& source) {
         total += std::uint64_t(count);
     }
     close(descriptor);
-    return count == 0 && total == source.state.size && state_of(source.path) == source.state ? hex64(sum.value())
+    return count == 0 && total == source.state.size && import::file_state(source.path) == source.state ? hex64(sum.value())
                                                                                             : std::string();
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct FileState {
 
     bool operator==(const FileState&) const = default;
 };
+
+// Of the file of this name, symbolic links followed; nothing if there is no regular file.
+std::optional<FileState> file_state(const std::filesystem::path& path);
 
 // One file that the model was made from; the asset itself first, then what it references, in the order of
 // the first reference.

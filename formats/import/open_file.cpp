@@ -49,6 +49,12 @@ fs::path real_path_of(int descriptor, const fs::path& path) {
 
 } // namespace
 
+std::optional<FileState> file_state(const fs::path& path) {
+    struct stat info {};
+    if (::stat(path.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return std::nullopt;
+    return state_of(info);
+}
+
 OpenFile::OpenFile(fs::path path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {}
 
 OpenFile::OpenFile(OpenFile&& other) noexcept
