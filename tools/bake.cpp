@@ -13,9 +13,8 @@ void bake_asset(const BakeArguments& arguments) {
     const BakedFile baked = bake_file(arguments);
     const BakeFacts facts = baked.facts(arguments);
     for (const std::string& warning : warnings(facts)) std::cerr << "spa: warning: " << warning << '\n';
-    print(arguments.format == ReportFormat::json
-              ? json_text(report_json(facts, baked.output, baked.seconds))
-              : report_text(facts, baked.bytes, baked.seconds));
+    print(arguments.format == ReportFormat::json ? json_text(report_json(facts, baked.output, baked.seconds))
+                                                 : report_text(facts, baked.bytes, baked.seconds));
 }
 
 } // namespace

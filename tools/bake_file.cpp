@@ -75,7 +75,8 @@ measure::Measurement measure_with_progress(const BakeArguments& arguments, const
 std::vector<std::byte> encode(const SphericalMap& map, const BakeArguments& arguments) {
     const SlowStep step("writing " + arguments.output.filename().string(), arguments.quiet);
     container::WriteOptions options;
-    options.compression = arguments.settings.compress ? container::Compression::zstd : container::Compression::none;
+    options.compression =
+        arguments.settings.compress ? container::Compression::zstd : container::Compression::none;
     std::vector<std::byte> bytes;
     require(container::write(map, options, bytes), arguments.output.string());
     return bytes;

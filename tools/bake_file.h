@@ -22,8 +22,8 @@ struct BakedFile {
 };
 
 // Reads, bakes, measures if asked to, and writes the map whole or not at all. Shows progress on stderr unless
-// arguments.quiet. Throws Error as read_model (import.h), bake_model (bake.h) and StagedFile (output.h) do, with
-// messages that begin with a path, and bake::Cancelled after SIGINT, SIGTERM or SIGHUP.
+// arguments.quiet. Throws Error as read_model (import.h), bake_model (bake.h) and StagedFile (output.h) do,
+// with messages that begin with a path, and bake::Cancelled after SIGINT, SIGTERM or SIGHUP.
 BakedFile bake_file(const BakeArguments& arguments);
 
 } // namespace spa::tools

@@ -65,7 +65,8 @@ std::string name_of(const Json& entry) {
     return entry.contains("name_hex") ? from_hexadecimal(text_of(entry, "name_hex")) : text_of(entry, "name");
 }
 
-std::string bake_key(const Json& files, const Json& missing, const Json& options, const std::string& version) {
+std::string bake_key(const Json& files, const Json& missing, const Json& options,
+                     const std::string& version) {
     const std::string text =
         dump({{"files", files}, {"missing", missing}, {"options", options}, {"version", version}});
     return hex64(container::checksum(std::as_bytes(std::span(text))));

@@ -11,7 +11,8 @@
 
 namespace spa::tools {
 
-// "files" of the metadata: [{"name", "bytes", "xxh3"}]; a name that is not UTF-8 also in hexadecimal, "name_hex".
+// "files" of the metadata: [{"name", "bytes", "xxh3"}]; a name that is not UTF-8 also in hexadecimal,
+// "name_hex".
 nlohmann::ordered_json files_json(const std::vector<import::SourceFile>& files);
 // "missing": the names of what was referred to and not there, written likewise: [{"name"}].
 nlohmann::ordered_json missing_json(const std::vector<std::string>& names);

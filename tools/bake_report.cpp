@@ -120,8 +120,8 @@ std::string metadata(const BakeFacts& facts) {
 
 std::string bake_key(const BakeFacts& facts) {
     const import::Report& source = facts.source.report;
-    return bake_key(files_json(source.files), missing_json(source.missing), options_json(facts.arguments.settings),
-                    SPA_VERSION);
+    return bake_key(files_json(source.files), missing_json(source.missing),
+                    options_json(facts.arguments.settings), SPA_VERSION);
 }
 
 std::vector<std::string> warnings(const BakeFacts& facts) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What decides the bytes of a map: the options that `spa bake` and `spa batch` share, from the command line to
-// bake::Options, and to the JSON that goes into files and reports.
+// What decides the bytes of a map: the options that `spa bake` and `spa batch` share, from the command line
+// to bake::Options, and to the JSON that goes into files and reports.
 #pragma once
 
 #include "arguments.h"

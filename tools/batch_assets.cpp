@@ -73,8 +73,9 @@ public:
 
     AssetList take() {
         if (unfollowed_ > 0)
-            list_.warnings.push_back(std::to_string(unfollowed_) +
-                                     " symbolic links to folders were not followed; --follow-links follows them");
+            list_.warnings.push_back(
+                std::to_string(unfollowed_) +
+                " symbolic links to folders were not followed; --follow-links follows them");
         std::sort(list_.warnings.begin(), list_.warnings.end());
         return std::move(list_);
     }
@@ -87,7 +88,8 @@ private:
     void walk(const fs::path& folder, const std::string& prefix) {
         const FolderId id = id_of(folder);
         if (std::find(above_.begin(), above_.end(), id) != above_.end()) {
-            list_.warnings.push_back(folder.string() + ": leads back to a folder above it; not entered again");
+            list_.warnings.push_back(folder.string() +
+                                     ": leads back to a folder above it; not entered again");
             return;
         }
         above_.push_back(id);
@@ -95,7 +97,8 @@ private:
         for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
             visit(*entry, prefix + entry->path().filename().string());
         if (error)
-            add_problem(folder, prefix.empty() ? "." : prefix, "the folder cannot be read: " + error.message());
+            add_problem(folder, prefix.empty() ? "." : prefix,
+                        "the folder cannot be read: " + error.message());
         above_.pop_back();
     }
 
@@ -113,8 +116,9 @@ private:
         if (is_link && !follow_links_) {
             const fs::path target = fs::canonical(entry.path(), error);
             if (!error && !is_inside(target, root_))
-                return add_problem(entry.path(), name,
-                                   "is a symbolic link that leads out of the folder; --follow-links allows it");
+                return add_problem(
+                    entry.path(), name,
+                    "is a symbolic link that leads out of the folder; --follow-links allows it");
         }
         add_file(entry.path(), name);
     }
@@ -196,7 +200,8 @@ void name_outputs(const fs::path& folder, std::vector<BatchAsset>& assets) {
 
 bool is_wanted(const BatchAsset& asset, const AssetQuery& query) {
     const auto matches = [&](const std::string& pattern) { return glob_matches(pattern, asset.name); };
-    if (!query.include.empty() && std::none_of(query.include.begin(), query.include.end(), matches)) return false;
+    if (!query.include.empty() && std::none_of(query.include.begin(), query.include.end(), matches))
+        return false;
     if (std::any_of(query.exclude.begin(), query.exclude.end(), matches)) return false;
     if (!query.shard) return true;
     const std::uint64_t hash = container::checksum(std::as_bytes(std::span(asset.name)));

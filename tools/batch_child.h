@@ -24,7 +24,7 @@ struct ChildOutcome {
     AssetResult result; // of baked, up_to_date, failed; without what only the parent knows
     bool interrupted = false;
     bool out_of_memory = false;
-    bool output_failed = false; // for a reason that concerns all outputs (OutputError)
+    bool output_failed = false;     // for a reason that concerns all outputs (OutputError)
     std::vector<std::byte> picture; // PNG; empty if not wanted or not to be had
 };
 

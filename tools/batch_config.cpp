@@ -25,7 +25,8 @@ std::vector<SettingName> setting_names() {
     const std::function<BakeSettings()> owner = define_bake_settings(app);
     std::vector<SettingName> names;
     for (const CLI::Option* option : app.get_options())
-        if (!option->get_group().empty()) names.push_back({option->get_name(), option->get_items_expected() == 0});
+        if (!option->get_group().empty())
+            names.push_back({option->get_name(), option->get_items_expected() == 0});
     return names;
 }
 
@@ -89,7 +90,8 @@ BatchConfig read_batch_config(const std::filesystem::path& path) {
     }
     check_members(json, {"options", "patterns"}, path.string());
     BatchConfig config;
-    if (json.contains("options")) config.options = parse_options(json["options"], path.string() + ": options");
+    if (json.contains("options"))
+        config.options = parse_options(json["options"], path.string() + ": options");
     if (!json.contains("patterns")) return config;
     const Json& patterns = json["patterns"];
     if (!patterns.is_array()) refuse(path.string() + ": patterns", "is not an array");

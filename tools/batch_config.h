@@ -20,12 +20,12 @@ using GivenSettings = std::map<std::string, std::string>;
 //    "patterns": [{"match": "heroes/*", "options": {"size": 512, "measure": true}}]}
 // The options' names are those of the command line without the dashes, or those in the metadata of a map.
 struct BatchConfig {
-    GivenSettings options;                                           // for all assets
+    GivenSettings options;                                         // for all assets
     std::vector<std::pair<std::string, GivenSettings>> by_pattern; // the last that matches has the last word
 };
 
-// Throws Error: input_output if the file cannot be read, invalid_data if it is not as described or has an option
-// or a value that there is not; the message names file and place.
+// Throws Error: input_output if the file cannot be read, invalid_data if it is not as described or has an
+// option or a value that there is not; the message names file and place.
 BatchConfig read_batch_config(const std::filesystem::path& path);
 
 // Those options of a parsed command line that define_bake_settings defined and that were given.
@@ -40,8 +40,8 @@ public:
     BatchSettings(BatchConfig config, GivenSettings command_line)
         : config_(std::move(config)), command_line_(std::move(command_line)) {}
 
-    // Of the asset of this name. Parsed once for all assets that have the same; the reference lives as long as
-    // this. Throws Error{usage} where they contradict each other; the message names the asset.
+    // Of the asset of this name. Parsed once for all assets that have the same; the reference lives as long
+    // as this. Throws Error{usage} where they contradict each other; the message names the asset.
     const BakeSettings& of(const std::string& name);
 
 private:

@@ -26,7 +26,8 @@ std::string outcome_text(const AssetResult& result) {
         if (result.facts.bytes == 0) return "to bake (" + std::string(name(result.reason)) + ")"; // dry run
         text += ", " + fixed(result.seconds, 2) + " s, " + byte_count(result.facts.bytes);
         const std::size_t warnings = result.warnings.size();
-        if (warnings > 0) text += ", " + std::to_string(warnings) + (warnings == 1 ? " warning" : " warnings");
+        if (warnings > 0)
+            text += ", " + std::to_string(warnings) + (warnings == 1 ? " warning" : " warnings");
         return text;
     }
     case AssetStatus::up_to_date: return "up to date";
@@ -73,8 +74,8 @@ void BatchProgress::draw(Clock::time_point now) {
     const double share = weight_ == 0 ? 1 : double(done_weight_) / double(weight_);
     const double elapsed = seconds_between(start_, now);
     const auto full = std::size_t(std::clamp(share, 0.0, 1.0) * bar_cells);
-    std::cerr << "\r\x1b[K[" << std::string(full, '#') << std::string(bar_cells - full, '.') << "] " << done_ << "/"
-              << assets_;
+    std::cerr << "\r\x1b[K[" << std::string(full, '#') << std::string(bar_cells - full, '.') << "] " << done_
+              << "/" << assets_;
     if (failed_ > 0) std::cerr << ", " << failed_ << " failed";
     if (elapsed >= 1 && done_ > 0) {
         std::cerr << ", " << significant(double(done_) / elapsed, 2) << "/s";

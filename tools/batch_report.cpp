@@ -53,7 +53,8 @@ std::size_t count(const std::array<std::size_t, 4>& counts, AssetStatus status) 
 
 std::string counts_text(const BatchReport& report) {
     const auto counts = report.counts();
-    std::string text = std::to_string(report.assets.size()) + (report.assets.size() == 1 ? " asset: " : " assets: ") +
+    std::string text = std::to_string(report.assets.size()) +
+                       (report.assets.size() == 1 ? " asset: " : " assets: ") +
                        std::to_string(count(counts, AssetStatus::baked)) +
                        (report.arguments.dry_run ? " to bake, " : " baked, ") +
                        std::to_string(count(counts, AssetStatus::up_to_date)) + " up to date, " +
@@ -126,10 +127,11 @@ std::string batch_text(const BatchReport& report) {
         if (++listed > most_failures_listed)
             ++unlisted;
         else
-            text += "  failed  " + one_line(report.assets[i].name) + ": exit " + std::to_string(int(result.exit_code)) +
-                    ": " + one_line(result.error) + "\n";
+            text += "  failed  " + one_line(report.assets[i].name) + ": exit " +
+                    std::to_string(int(result.exit_code)) + ": " + one_line(result.error) + "\n";
     }
-    if (unlisted > 0) text += "  and " + std::to_string(unlisted) + " more that failed; --report names them\n";
+    if (unlisted > 0)
+        text += "  and " + std::to_string(unlisted) + " more that failed; --report names them\n";
     std::uint64_t read = 0, written = 0;
     for (const AssetResult& result : report.results) {
         if (result.status != AssetStatus::baked) continue;
@@ -162,18 +164,18 @@ std::string one_line(std::string_view text) {
 
 std::string signal_name(int number) {
     constexpr std::array<std::pair<int, const char*>, 13> names{{{SIGSEGV, "SIGSEGV"},
-                                                                {SIGABRT, "SIGABRT"},
-                                                                {SIGBUS, "SIGBUS"},
-                                                                {SIGFPE, "SIGFPE"},
-                                                                {SIGILL, "SIGILL"},
-                                                                {SIGKILL, "SIGKILL"},
-                                                                {SIGTERM, "SIGTERM"},
-                                                                {SIGINT, "SIGINT"},
-                                                                {SIGHUP, "SIGHUP"},
-                                                                {SIGPIPE, "SIGPIPE"},
-                                                                {SIGTRAP, "SIGTRAP"},
-                                                                {SIGXCPU, "SIGXCPU"},
-                                                                {SIGSYS, "SIGSYS"}}};
+                                                                 {SIGABRT, "SIGABRT"},
+                                                                 {SIGBUS, "SIGBUS"},
+                                                                 {SIGFPE, "SIGFPE"},
+                                                                 {SIGILL, "SIGILL"},
+                                                                 {SIGKILL, "SIGKILL"},
+                                                                 {SIGTERM, "SIGTERM"},
+                                                                 {SIGINT, "SIGINT"},
+                                                                 {SIGHUP, "SIGHUP"},
+                                                                 {SIGPIPE, "SIGPIPE"},
+                                                                 {SIGTRAP, "SIGTRAP"},
+                                                                 {SIGXCPU, "SIGXCPU"},
+                                                                 {SIGSYS, "SIGSYS"}}};
     for (const auto& [known, text] : names)
         if (known == number) return text;
     return "signal " + std::to_string(number);

@@ -57,8 +57,8 @@ nlohmann::ordered_json batch_json(const BatchReport& report);
 // For people: the counts, what failed and why, what it cost.
 std::string batch_text(const BatchReport& report);
 
-// One line: what a file name or a message may have that a terminal or a line does not bear (control characters,
-// bytes that are not UTF-8) is written as \n, \x1b and so on.
+// One line: what a file name or a message may have that a terminal or a line does not bear (control
+// characters, bytes that are not UTF-8) is written as \n, \x1b and so on.
 std::string one_line(std::string_view text);
 
 // "SIGSEGV", or "signal 64" for those without a name.

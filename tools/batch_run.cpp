@@ -38,7 +38,7 @@ class Batch {
 public:
     Batch(BatchReport& report, const PictureSink& pictures)
         : report_(report), arguments_(report.arguments), pictures_(pictures),
-          progress_(report.assets.size(), total_weight(report), arguments_.quiet) {}
+          progress_(report.assets.size(), total_weight(report), arguments_.quiet || arguments_.dry_run) {}
 
     void run() {
         const InterruptGuard guard;
@@ -46,7 +46,8 @@ public:
         while (!waiting_.empty() || !ready_.empty() || pool_.running() > 0) {
             if (interrupt_signal() != 0 && report_.stopped_by != BatchStop::signal) stop_for_signal();
             const bool went_on = go_on();
-            const std::optional<WorkerEnd> end = pool_.wait(went_on ? std::chrono::milliseconds(0) : heartbeat);
+            const std::optional<WorkerEnd> end =
+                pool_.wait(went_on ? std::chrono::milliseconds(0) : heartbeat);
             if (end) finish(*end);
             progress_.update();
         }
@@ -69,8 +70,8 @@ private:
         return order;
     }
 
-    // Starts the next asset if there is room for it, or deals with it at once. False if there is nothing to do
-    // before a process ends.
+    // Starts the next asset if there is room for it, or deals with it at once. False if there is nothing to
+    // do before a process ends.
     bool go_on() {
         if (ready_.empty() && !waiting_.empty()) {
             const std::size_t asset = waiting_.front();
@@ -174,10 +175,12 @@ private:
         result.signal = end.signal;
         if (end.timed_out) {
             result.exit_code = ExitCode::limits;
-            result.error = "took longer than " + std::to_string(arguments_.timeout->count()) + " s (--timeout)";
+            result.error =
+                "took longer than " + std::to_string(arguments_.timeout->count()) + " s (--timeout)";
         } else if (end.signal == SIGKILL) {
             result.exit_code = ExitCode::unsupported;
-            result.error = "was killed (SIGKILL), as the system does when it is out of memory; lower --memory or --jobs";
+            result.error =
+                "was killed (SIGKILL), as the system does when it is out of memory; lower --memory or --jobs";
         } else {
             result.exit_code = ExitCode::internal;
             result.error = end.signal == 0 ? "its process ended without a result"
@@ -220,8 +223,9 @@ void remove_all_leftovers(const std::vector<BatchAsset>& assets) {
         remove_leftovers(folder, [&ours = ours](const std::string& name) { return ours.contains(name); });
 }
 
-// What oneTBB does once in a process (it looks for its allocator and for other run times in every library folder)
-// costs more than the bake of a small asset. Done here, and without starting a thread, every fork has it.
+// What oneTBB does once in a process (it looks for its allocator and for other run times in every library
+// folder) costs more than the bake of a small asset. Done here, and without starting a thread, every fork has
+// it.
 void prepare_threading() {
     tbb::task_arena(1).execute([] { tbb::parallel_for(0, 2, [](int) {}); });
 }

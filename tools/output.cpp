@@ -70,8 +70,8 @@ std::string temporary_template(const fs::path& folder, const fs::path& name) {
     return (folder / ("." + staged_name(name.string()).append(random_part))).string();
 }
 
-// A new, locked file. Between its making and the lock, remove_leftovers of another process can take it for one
-// that was left behind; then it has no name any more.
+// A new, locked file. Between its making and the lock, remove_leftovers of another process can take it for
+// one that was left behind; then it has no name any more.
 int make_locked(const fs::path& path, std::string& name) {
     for (int attempt = 0; attempt < 100; ++attempt) {
         name = temporary_template(folder_of(path), path.filename());

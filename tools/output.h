@@ -63,8 +63,8 @@ private:
     int descriptor_ = -1;
 };
 
-// Removes the temporary files of StagedFile in `folder` whose process is gone. `is_ours`: whether files of this
-// final name are to be looked at; the name is cut as StagedFile cuts it. Errors are nobody's business.
+// Removes the temporary files of StagedFile in `folder` whose process is gone. `is_ours`: whether files of
+// this final name are to be looked at; the name is cut as StagedFile cuts it. Errors are nobody's business.
 void remove_leftovers(const std::filesystem::path& folder,
                       const std::function<bool(const std::string& final_name)>& is_ours);
 // As far as StagedFile keeps a name.

@@ -7,7 +7,8 @@ namespace spa::tools {
 
 PictureStore::PictureStore(std::size_t count) : file_(std::tmpfile()), places_(count) {
     if (!file_)
-        throw Error(ExitCode::input_output, "no temporary file can be made for the report's pictures; set TMPDIR");
+        throw Error(ExitCode::input_output,
+                    "no temporary file can be made for the report's pictures; set TMPDIR");
 }
 
 void PictureStore::put(std::size_t index, std::span<const std::byte> bytes) {

@@ -28,8 +28,8 @@ using import::FileState;
 
 constexpr const char* attribute = "user.spa.sources";
 constexpr std::int64_t nanoseconds = 1'000'000'000;
-// Times of file systems can be as coarse as two seconds (FAT): a file that changed less than this before it was
-// read can change once more and show the same time.
+// Times of file systems can be as coarse as two seconds (FAT): a file that changed less than this before it
+// was read can change once more and show the same time.
 constexpr std::int64_t coarsest_time = 2 * nanoseconds;
 
 std::int64_t in_nanoseconds(const std::timespec& time) { return time.tv_sec * nanoseconds + time.tv_nsec; }
@@ -66,7 +66,8 @@ std::optional<Recorded> parse_recorded(const std::string& metadata) {
     const Json* version = member(*generator, "version", Json::value_t::string);
     if (files == nullptr || files->empty() || missing == nullptr || version == nullptr) return {};
     Recorded recorded{*key, *files, *missing, *options, *version, {}};
-    if (bake_key(recorded.files, recorded.missing, recorded.options, recorded.version) != recorded.key) return {};
+    if (bake_key(recorded.files, recorded.missing, recorded.options, recorded.version) != recorded.key)
+        return {};
     recorded.facts = std::move(json);
     return recorded;
 }
@@ -115,7 +116,8 @@ std::optional<std::vector<Source>> find_sources(const Recorded& recorded, const 
 std::string stamp(const std::string& key, const std::vector<FileState>& states) {
     std::string text = key;
     for (const FileState& state : states)
-        for (const auto value : {std::int64_t(state.inode), std::int64_t(state.size), state.mtime_ns, state.ctime_ns})
+        for (const auto value :
+             {std::int64_t(state.inode), std::int64_t(state.size), state.mtime_ns, state.ctime_ns})
             text += " " + std::to_string(value);
     return hex64(container::checksum(std::as_bytes(std::span(text))));
 }
@@ -147,8 +149,9 @@ std::string hash_of(const Source& source) {
         total += std::uint64_t(count);
     }
     close(descriptor);
-    return count == 0 && total == source.state.size && import::file_state(source.path) == source.state ? hex64(sum.value())
-                                                                                            : std::string();
+    return count == 0 && total == source.state.size && import::file_state(source.path) == source.state
+               ? hex64(sum.value())
+               : std::string();
 }
 
 MapFacts facts_of(const Recorded& recorded, const fs::path& output) {

@@ -46,16 +46,16 @@ struct MapState {
     MapFacts facts;                       // where it is current
 };
 
-// Compares the map in `output` with the asset in `path` and these settings. Touches no image; reads sources only
-// where their state is not the remembered one, and then at most so many bytes. A map that proves current by
-// content gets its attribute anew. Never throws for what is on disk.
+// Compares the map in `output` with the asset in `path` and these settings. Touches no image; reads sources
+// only where their state is not the remembered one, and then at most so many bytes. A map that proves current
+// by content gets its attribute anew. Never throws for what is on disk.
 MapState judge_map(const std::filesystem::path& output, const std::filesystem::path& path,
                    const BakeSettings& settings, std::uint64_t read_at_most);
 
 // Remembers the states that the sources of a map just baked had when they were read. `started`: when reading
 // began. Does nothing where a source changed so shortly before that a later change could look the same, and
 // where the file system has no extended attributes.
-void remember_sources(const std::filesystem::path& output, const import::Report& report, const std::string& key,
-                      std::timespec started);
+void remember_sources(const std::filesystem::path& output, const import::Report& report,
+                      const std::string& key, std::timespec started);
 
 } // namespace spa::tools

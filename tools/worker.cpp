@@ -40,7 +40,8 @@ Pipe make_pipe() {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
         throw Error(ExitCode::input_output,
-                    "the system gives no pipe: " + std::generic_category().message(errno) + "; use fewer --jobs");
+                    "the system gives no pipe: " + std::generic_category().message(errno) +
+                        "; use fewer --jobs");
     return {ends[0], ends[1]};
 }
 
@@ -59,9 +60,7 @@ void limit_memory(std::uint64_t bytes) {
     setrlimit(RLIMIT_DATA, &limit);
 }
 
-void prefer_as_victim() {
-    std::ofstream("/proc/self/oom_score_adj") << 500;
-}
+void prefer_as_victim() { std::ofstream("/proc/self/oom_score_adj") << 500; }
 
 void die_with(pid_t parent) {
 #ifdef __linux__
@@ -135,8 +134,9 @@ void WorkerPool::start(std::size_t id, const std::function<std::string()>& task,
     if (process < 0) {
         close(result.read_end);
         close(output.read_end);
-        throw Error(ExitCode::input_output, "the system gives no process: " +
-                                                std::generic_category().message(number) + "; use fewer --jobs");
+        throw Error(ExitCode::input_output,
+                    "the system gives no process: " + std::generic_category().message(number) +
+                        "; use fewer --jobs");
     }
     Worker worker;
     worker.id = id;

@@ -29,8 +29,8 @@ struct WorkerEnd {
     double seconds = 0;
 };
 
-// Runs tasks in forks of this process, which must have one thread only: a fork costs a millisecond, a new start
-// of the command two hundred. Children die with their parent.
+// Runs tasks in forks of this process, which must have one thread only: a fork costs a millisecond, a new
+// start of the command two hundred. Children die with their parent.
 class WorkerPool {
 public:
     WorkerPool() = default;
@@ -38,8 +38,8 @@ public:
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
 
-    // Starts task() in a child. Its standard input is empty. The task must not throw. Throws Error{input_output} if
-    // the system gives no process or pipe.
+    // Starts task() in a child. Its standard input is empty. The task must not throw. Throws
+    // Error{input_output} if the system gives no process or pipe.
     void start(std::size_t id, const std::function<std::string()>& task, const WorkerLimits& limits);
 
     // One that ended; none if none did for `at_most`, or at once when a signal arrives.

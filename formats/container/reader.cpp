@@ -84,11 +84,13 @@ std::span<const SectionEntry> File::sections() const {
 }
 
 Status open(const std::string& path, File& file, const ReadOptions& options) noexcept {
-    return load_or_empty(file.contents_, [&](File::Contents& c) { return load(path, options, LoadPart::all, c); });
+    return load_or_empty(file.contents_,
+                         [&](File::Contents& c) { return load(path, options, LoadPart::all, c); });
 }
 
 Status open(std::span<const std::byte> bytes, File& file, const ReadOptions& options) noexcept {
-    return load_or_empty(file.contents_, [&](File::Contents& c) { return load(bytes, options, LoadPart::all, c); });
+    return load_or_empty(file.contents_,
+                         [&](File::Contents& c) { return load(bytes, options, LoadPart::all, c); });
 }
 
 Status read_metadata(const std::string& path, std::string& metadata, const Limits& limits) noexcept {
