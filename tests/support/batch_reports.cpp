@@ -97,6 +97,7 @@ Json report(Json assets, double seconds) {
             {"dry_run", false},
             {"stopped_by", nullptr},
             {"seconds", seconds},
+            {"warnings", Json::array()},
             {"counts", counts},
             {"assets", std::move(assets)}};
 }
