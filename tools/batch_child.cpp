@@ -40,7 +40,7 @@ void bake(const ChildTask& task, AssetResult& result) {
     result.warnings = warnings(facts);
     for (const import::SourceFile& file : baked.source.report.files) result.facts.source_bytes += file.bytes;
     result.facts.triangles = baked.report.triangles;
-    result.facts.bytes = baked.bytes;
+    result.facts.bytes = baked.bytes.size();
     if (baked.measurement) result.facts.figures = figures_json(*baked.measurement).dump();
 }
 

@@ -55,6 +55,7 @@ GivenSettings parse_options(const Json& json, const std::string& where) {
                                         [&](const SettingName& setting) { return setting.name == name; });
         if (found == known.end()) {
             std::vector<std::string> names;
+            names.reserve(known.size());
             for (const SettingName& setting : known) names.push_back(setting.name.substr(2));
             refuse(where, "there is no option '" + key + "' of a bake" + did_you_mean(name.substr(2), names));
         }

@@ -200,7 +200,7 @@ MapState judge_map(const fs::path& output, const fs::path& path, const BakeSetti
         states.push_back(source.state);
         bytes += source.state.size;
     }
-    const MapState current{Freshness::current, BakeReason::none, facts_of(*recorded, output)};
+    MapState current{Freshness::current, BakeReason::none, facts_of(*recorded, output)};
     if (read_attribute(output) == stamp(recorded->key, states)) return current;
     if (bytes > read_at_most) return {Freshness::unknown, BakeReason::none, {}};
     for (const Source& source : *sources)
