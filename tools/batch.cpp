@@ -18,27 +18,59 @@ namespace {
 
 bool is_page(const std::filesystem::path& report) { return report.extension() == ".html"; }
 
+// Says what would go wrong, and removes what a killed run left.
+void prepare_report(const std::filesystem::path& path) {
+    check_output_file(path);
+    const std::string staged = staged_name(path.filename().string());
+    remove_leftovers(path.has_parent_path() ? path.parent_path() : ".",
+                     [&](const std::string& name) { return name == staged; });
+}
+
 void write_text(const std::filesystem::path& path, const std::string& text) {
     StagedFile file(path);
     file.write(std::as_bytes(std::span(text)));
     file.commit();
 }
 
-void write_reports(const BatchReport& report, const PictureStore* pictures) {
-    if (report.arguments.reports.empty()) return;
+// All that can be written; returns what the first that cannot failed for.
+std::optional<Error> write_reports(const BatchReport& report, const PictureStore* pictures) {
+    std::optional<Error> failure;
+    if (report.arguments.reports.empty()) return failure;
     const nlohmann::ordered_json json = batch_json(report);
     for (const std::filesystem::path& path : report.arguments.reports) {
         std::ostringstream text;
         if (is_page(path))
-            write_batch_page(text, json, [&](std::size_t asset) { return pictures->get(asset); });
+            write_batch_page(text, json, [&](std::size_t asset) {
+                return pictures == nullptr ? std::vector<std::byte>() : pictures->get(asset);
+            });
         else
             text << json_text(json);
-        write_text(path, text.str());
+        try {
+            write_text(path, text.str());
+        } catch (const Error& error) {
+            if (!failure) failure = error;
+        }
     }
+    return failure;
+}
+
+// Throws what the batch has to say last, if it did not end well.
+void conclude(const BatchReport& report) {
+    const auto counts = report.counts();
+    const std::string left = std::to_string(counts[std::size_t(AssetStatus::not_started)]);
+    if (report.stopped_by == BatchStop::signal)
+        throw Interrupted("interrupted; " + left + " assets are left, and the next run goes on there");
+    if (report.exit_code() == ExitCode::ok) return;
+    const std::string failed = std::to_string(counts[std::size_t(AssetStatus::failed)]);
+    throw Error(report.exit_code(),
+                failed + " of " + std::to_string(report.assets.size()) + " assets failed" +
+                    (report.stopped_by == BatchStop::output
+                         ? "; stopped, as outputs cannot be written: " + left + " are left"
+                         : ""));
 }
 
 void batch(const BatchArguments& arguments) {
-    for (const std::filesystem::path& report : arguments.reports) check_output_file(report);
+    for (const std::filesystem::path& report : arguments.reports) prepare_report(report);
     AssetList list = find_assets(arguments.query);
     BatchSettings settings(arguments.config, arguments.command_line);
     for (const BatchAsset& asset : list.assets) static_cast<void>(settings.of(asset.name));
@@ -49,24 +81,20 @@ void batch(const BatchArguments& arguments) {
     std::optional<PictureStore> pictures;
     if (std::any_of(arguments.reports.begin(), arguments.reports.end(), is_page) && !arguments.dry_run)
         pictures.emplace(list.assets.size());
-    run_batch(report, pictures ? PictureSink([&](std::size_t asset, std::span<const std::byte> png) {
-                  pictures->put(asset, png);
-              })
-                               : nullptr);
-    write_reports(report, pictures ? &*pictures : nullptr);
+    std::optional<Error> unwritten;
+    {
+        const InterruptGuard
+            guard; // until the reports are written: they are to say what a signal left undone
+        run_batch(report, pictures ? PictureSink([&](std::size_t asset, std::span<const std::byte> png) {
+                      pictures->put(asset, png);
+                  })
+                                   : nullptr);
+        unwritten = write_reports(report, pictures ? &*pictures : nullptr);
+    }
     print(arguments.format == ReportFormat::json ? json_text(batch_json(report)) : batch_text(report));
-
-    const auto counts = report.counts();
-    const std::string left = std::to_string(counts[std::size_t(AssetStatus::not_started)]);
-    if (report.stopped_by == BatchStop::signal)
-        throw Interrupted("interrupted; " + left + " assets are left, and the next run goes on there");
-    const std::string failed = std::to_string(counts[std::size_t(AssetStatus::failed)]);
-    if (report.exit_code() != ExitCode::ok)
-        throw Error(report.exit_code(),
-                    failed + " of " + std::to_string(list.assets.size()) + " assets failed" +
-                        (report.stopped_by == BatchStop::output
-                             ? "; stopped, as outputs cannot be written: " + left + " are left"
-                             : ""));
+    if (unwritten) std::cerr << "spa: " << unwritten->what() << '\n';
+    conclude(report);
+    if (unwritten) throw Error(unwritten->code(), "a report could not be written");
 }
 
 } // namespace

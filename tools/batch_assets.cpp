@@ -62,10 +62,10 @@ public:
         std::error_code error;
         BatchAsset asset{name, path, {}, 0, {}};
         const fs::file_status status = fs::status(path, error);
-        if (!fs::exists(status))
+        if (status.type() == fs::file_type::not_found)
             asset.problem = "no such file; check the path";
         else if (!fs::is_regular_file(status))
-            asset.problem = "not a regular file";
+            asset.problem = error ? "cannot be read: " + error.message() : "not a regular file";
         else
             asset.bytes = fs::file_size(path, error);
         list_.assets.push_back(std::move(asset));
@@ -163,8 +163,10 @@ void add_input(Lister& lister, const std::string& input) {
     }
     std::error_code error;
     const fs::file_status status = fs::status(input, error);
-    if (!fs::exists(status))
+    if (status.type() == fs::file_type::not_found)
         throw Error(ExitCode::input_output, input + ": no such file or folder; check the path");
+    if (!fs::exists(status))
+        throw Error(ExitCode::input_output, input + ": cannot be read: " + error.message());
     if (fs::is_directory(status))
         lister.add_folder(input);
     else

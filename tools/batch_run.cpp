@@ -41,13 +41,14 @@ public:
           progress_(report.assets.size(), total_weight(report), arguments_.quiet || arguments_.dry_run) {}
 
     void run() {
-        const InterruptGuard guard;
         waiting_ = largest_first();
         while (!waiting_.empty() || !ready_.empty() || pool_.running() > 0) {
-            if (interrupt_signal() != 0 && report_.stopped_by != BatchStop::signal) stop_for_signal();
+            obey_signal();
             const bool went_on = go_on();
             const std::optional<WorkerEnd> end =
                 pool_.wait(went_on ? std::chrono::milliseconds(0) : heartbeat);
+            obey_signal(); // before an end is judged: what interrupts the batch may have ended that process,
+                           // too
             if (end) finish(*end);
             progress_.update();
         }
@@ -83,8 +84,14 @@ private:
         if (ready_.empty() || !has_room(ready_.front())) return false;
         Start start = std::move(ready_.front());
         ready_.pop_front();
-        pool_.start(start.asset, [&start] { return run_child(start.task); },
-                    {start.memory_bytes, arguments_.timeout});
+        try {
+            pool_.start(start.asset, [&start] { return run_child(start.task); },
+                        {start.memory_bytes, arguments_.timeout});
+        } catch (const Error&) {
+            if (pool_.running() == 0) throw;
+            ready_.push_front(std::move(start)); // with fewer at once it will do
+            return false;
+        }
         memory_in_use_ += start.memory_bytes;
         running_[start.asset] = std::move(start);
         return true;
@@ -149,7 +156,8 @@ private:
         if (was_stopped && report_.stopped_by == BatchStop::signal) return; // not_started
         if (was_stopped) describe_end(end, start.task.asset, outcome.result);
         if (may_want_memory(end, outcome) && start.memory_bytes < arguments_.memory_bytes) {
-            start.memory_bytes = arguments_.memory_bytes; // with all of it, and so alone
+            if (report_.stopped_by != BatchStop::none) return; // not_started
+            start.memory_bytes = arguments_.memory_bytes;      // with all of it, and so alone
             ready_.push_front(std::move(start));
             return;
         }
@@ -194,9 +202,10 @@ private:
         remove_leftovers(output.parent_path(), [&](const std::string& name) { return name == staged; });
     }
 
-    void stop_for_signal() {
+    void obey_signal() {
+        if (interrupt_signal() == 0 || report_.stopped_by == BatchStop::signal) return;
         stop(BatchStop::signal);
-        pool_.signal_all(SIGTERM);
+        pool_.stop_all();
     }
 
     void stop(BatchStop reason) {

@@ -9,7 +9,8 @@
 
 namespace spa::tools {
 
-// While one lives, SIGINT, SIGTERM and SIGHUP only set a flag; SIGPIPE is ignored. At most one lives.
+// While one lives, SIGINT, SIGTERM and SIGHUP only set a flag, but for those that were ignored before
+// (nohup); SIGPIPE and SIGXFSZ are ignored, so that a write fails instead. At most one lives.
 class InterruptGuard {
 public:
     InterruptGuard();
@@ -21,10 +22,25 @@ public:
     static void check();
 
 private:
-    std::array<struct sigaction, 4> previous_{};
+    std::array<struct sigaction, 5> previous_{};
 };
 
-// For a process just forked from one that has a guard: signals do again what they did before it.
+// While one lives, SIGINT, SIGTERM and SIGHUP wait. For a fork: until the child has forgotten the handlers, a
+// signal to it would set a flag that nobody looks at.
+class InterruptHold {
+public:
+    InterruptHold();
+    ~InterruptHold() { end(); }
+    InterruptHold(const InterruptHold&) = delete;
+    InterruptHold& operator=(const InterruptHold&) = delete;
+    void end() const; // before its life does
+
+private:
+    sigset_t previous_{};
+};
+
+// For a process just forked from one that has a guard: signals do again what they did before it. SIGTERM, by
+// which a parent ends its child, is not ignored even if it was.
 void forget_interrupts();
 
 // Thrown where work was ended by a signal after part of it was done; the message says what is left.

@@ -12,8 +12,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <fcntl.h>
 #include <iostream>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 #ifdef __GLIBC__
@@ -98,11 +100,20 @@ int run(const std::vector<std::string>& arguments) {
     }
 }
 
+// A stream that is closed would be the next file that is opened, and what is printed would go there. In its
+// place comes one that cannot be used either.
+void hold_standard_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) < 0)
+            static_cast<void>(open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
+
 } // namespace
 
 } // namespace spa::tools
 
 int main(int argc, char** argv) {
+    spa::tools::hold_standard_streams();
 #ifdef __GLIBC__
     // A bake takes and frees arrays of many megabytes. Left alone, malloc gives each back to the kernel, and
     // touching the pages of the next one costs more than the work on them.

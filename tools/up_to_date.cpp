@@ -184,6 +184,8 @@ MapState judge_map(const fs::path& output, const fs::path& path, const BakeSetti
     const auto stale = [](BakeReason reason) { return MapState{Freshness::stale, reason, {}}; };
     std::error_code error;
     if (!fs::exists(fs::symlink_status(output, error))) return stale(BakeReason::first);
+    // Opening a pipe would wait for somebody to write.
+    if (!fs::is_regular_file(output, error)) return stale(BakeReason::damaged);
     std::string metadata;
     if (!container::read_metadata(output.string(), metadata).ok()) return stale(BakeReason::damaged);
     const std::optional<Recorded> recorded = parse_recorded(metadata);

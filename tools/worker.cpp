@@ -79,21 +79,6 @@ void write_all(int descriptor, std::string_view text) {
     }
 }
 
-[[noreturn]] void become_worker(const std::function<std::string()>& task, const WorkerLimits& limits,
-                                const Pipe& result, const Pipe& output, pid_t parent) {
-    die_with(parent);
-    forget_interrupts();
-    const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
-    dup2(nothing, STDIN_FILENO);
-    dup2(output.write_end, STDOUT_FILENO);
-    dup2(output.write_end, STDERR_FILENO);
-    prefer_as_victim();
-    limit_memory(limits.memory_bytes);
-    write_all(result.write_end, task());
-    // Without what belongs to the parent: its buffers, its temporary files.
-    _exit(0);
-}
-
 // Appends what there is; false at the end.
 bool read_some(int descriptor, std::string& text) {
     std::array<char, 65536> buffer{};
@@ -109,6 +94,8 @@ void close_end(int& descriptor) {
 }
 
 } // namespace
+
+WorkerPool::WorkerPool() { static_cast<void>(std::signal(SIGCHLD, SIG_DFL)); }
 
 WorkerPool::~WorkerPool() {
     signal_all(SIGKILL);
@@ -126,8 +113,16 @@ void WorkerPool::start(std::size_t id, const std::function<std::string()>& task,
         throw;
     }
     const pid_t parent = getpid();
+    const InterruptHold hold;
     const pid_t process = fork();
-    if (process == 0) become_worker(task, limits, result, output, parent);
+    if (process == 0) {
+        die_with(parent);
+        forget_interrupts();
+        hold.end();
+        close(result.read_end);
+        close(output.read_end);
+        become_worker(task, limits, result.write_end, output.write_end);
+    }
     const int number = errno;
     close(result.write_end);
     close(output.write_end);
@@ -146,6 +141,26 @@ void WorkerPool::start(std::size_t id, const std::function<std::string()>& task,
     worker.started = Clock::now();
     if (limits.timeout) worker.deadline = worker.started + *limits.timeout;
     workers_.push_back(std::move(worker));
+}
+
+void WorkerPool::become_worker(const std::function<std::string()>& task, const WorkerLimits& limits,
+                               int result, int output) {
+    // What is the parent's alone: one could run out of descriptors for so many others.
+    for (Worker& other : workers_) {
+        close_end(other.result);
+        close_end(other.output);
+    }
+    const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    dup2(nothing, STDIN_FILENO);
+    dup2(output, STDOUT_FILENO);
+    dup2(output, STDERR_FILENO);
+    close(nothing);
+    close(output);
+    prefer_as_victim();
+    limit_memory(limits.memory_bytes);
+    write_all(result, task());
+    // Without what belongs to the parent: its buffers, its temporary files.
+    _exit(0);
 }
 
 std::optional<WorkerEnd> WorkerPool::wait(std::chrono::milliseconds at_most) {
@@ -188,12 +203,22 @@ void WorkerPool::signal_all(int number) {
     for (const Worker& worker : workers_) kill(worker.process, number);
 }
 
+void WorkerPool::stop_all() {
+    for (Worker& worker : workers_)
+        if (!worker.asked_to_stop) stop(worker, Clock::now());
+}
+
+void WorkerPool::stop(Worker& worker, Clock::time_point now) {
+    kill(worker.process, worker.asked_to_stop ? SIGKILL : SIGTERM);
+    worker.deadline = worker.asked_to_stop ? Clock::time_point::max() : now + grace;
+    worker.asked_to_stop = true;
+}
+
 void WorkerPool::enforce_deadlines(Clock::time_point now) {
     for (Worker& worker : workers_) {
         if (now < worker.deadline) continue;
-        kill(worker.process, worker.end.timed_out ? SIGKILL : SIGTERM);
-        worker.deadline = worker.end.timed_out ? Clock::time_point::max() : now + grace;
-        worker.end.timed_out = true;
+        if (!worker.asked_to_stop) worker.end.timed_out = true;
+        stop(worker, now);
     }
 }
 

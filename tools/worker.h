@@ -33,7 +33,9 @@ struct WorkerEnd {
 // start of the command two hundred. Children die with their parent.
 class WorkerPool {
 public:
-    WorkerPool() = default;
+    // From now on SIGCHLD does what it does by default: a process that was started with it ignored would
+    // never learn how its children ended.
+    WorkerPool();
     ~WorkerPool(); // kills what still runs
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
@@ -47,6 +49,8 @@ public:
 
     [[nodiscard]] std::size_t running() const { return workers_.size(); }
     void signal_all(int number);
+    // Asks all to stop (SIGTERM); 2 s later those that have not are killed.
+    void stop_all();
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -56,10 +60,14 @@ private:
         int result = -1, output = -1; // read ends; -1: at its end
         WorkerEnd end;
         Clock::time_point started, deadline = Clock::time_point::max();
+        bool asked_to_stop = false;
     };
     // Reads what the workers say, waiting for some until then. False if a signal arrived.
     bool read_until(Clock::time_point until);
+    void stop(Worker& worker, Clock::time_point now);
     void enforce_deadlines(Clock::time_point now);
+    [[noreturn]] void become_worker(const std::function<std::string()>& task, const WorkerLimits& limits,
+                                    int result, int output);
     WorkerEnd collect(std::list<Worker>::iterator worker);
 
     std::list<Worker> workers_;

@@ -97,7 +97,8 @@ Status read_metadata(const std::string& path, std::string& metadata, const Limit
     metadata.clear();
     std::unique_ptr<File::Contents> contents;
     const Status status = load_or_empty(contents, [&](File::Contents& c) {
-        return load(path, {limits, CheckDepth::full, true}, LoadPart::metadata, c);
+        // Read, not mapped: little is, and somebody may shorten the file meanwhile.
+        return load(path, {limits, CheckDepth::full, false}, LoadPart::metadata, c);
     });
     if (status.ok()) metadata = std::move(contents->loaded.map.metadata);
     return status;

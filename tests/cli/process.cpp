@@ -12,6 +12,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#ifdef __linux__
+#include <linux/capability.h>
+#include <sys/prctl.h>
+#endif
+
 namespace spa::test {
 
 namespace fs = std::filesystem;
@@ -38,18 +43,20 @@ struct Pipe {
     }
 };
 
-// Only calls that are allowed between fork and exec.
-[[noreturn]] void become_spa(const std::vector<char*>& arguments, const char* folder, const Pipe& in,
-                             const Pipe& out, const Pipe& err) {
-    dup2(in.read_end, STDIN_FILENO);
-    dup2(out.write_end, STDOUT_FILENO);
-    dup2(err.write_end, STDERR_FILENO);
-    for (const Pipe* pipe : {&in, &out, &err}) {
-        close(pipe->read_end);
-        close(pipe->write_end);
+// Only calls that are allowed between fork and exec, here and below.
+void take_surroundings(const Surroundings& surroundings) {
+#ifdef __linux__
+    if (surroundings.obeys_permissions)
+        for (const int capability : {CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH})
+            prctl(PR_CAPBSET_DROP, capability, 0, 0, 0);
+#endif
+    if (surroundings.leads_group) setpgid(0, 0);
+    for (const int number : surroundings.ignored_signals) signal(number, SIG_IGN);
+    for (const auto& [resource, most] : surroundings.limits) {
+        const rlimit limit{most, most};
+        setrlimit(static_cast<decltype(RLIMIT_AS)>(resource), &limit);
     }
-    if (chdir(folder) == 0) execv(SPA_BINARY, arguments.data());
-    _exit(127);
+    for (const int descriptor : surroundings.closed) close(descriptor);
 }
 
 // Returns false at the end of the stream.
@@ -62,30 +69,31 @@ bool read_some(int descriptor, std::string& text) {
     return true;
 }
 
-// Both at once: a process that fills one pipe while the other is waited for would hang.
-void exchange(Pipe& in, Pipe& out, Pipe& err, std::string_view input, Outcome& outcome, pid_t child,
-              int signal_on_stderr) {
-    while (out.read_end >= 0 || err.read_end >= 0) {
-        if (input.empty()) Pipe::close_end(in.write_end);
-        std::array<pollfd, 3> waiting{
-            {{out.read_end, POLLIN, 0}, {err.read_end, POLLIN, 0}, {in.write_end, POLLOUT, 0}}};
-        if (poll(waiting.data(), waiting.size(), -1) < 0) continue;
-        if (waiting[0].revents != 0 && !read_some(out.read_end, outcome.out)) Pipe::close_end(out.read_end);
-        if (waiting[1].revents != 0 && !read_some(err.read_end, outcome.err)) Pipe::close_end(err.read_end);
-        if (waiting[2].revents != 0) {
-            const ssize_t written =
-                write(in.write_end, input.data(), std::min<std::size_t>(input.size(), 4096));
-            input.remove_prefix(written < 0 ? input.size() : std::size_t(written));
-        }
-        if (signal_on_stderr != 0 && !outcome.err.empty()) {
-            kill(child, signal_on_stderr);
-            signal_on_stderr = 0;
-        }
-    }
-}
+} // namespace
 
-Outcome run(const std::vector<std::string>& arguments, const fs::path& folder, std::string_view input,
-            int signal) {
+struct Process::Streams {
+    Pipe in, out, err;
+
+    [[noreturn]] void become_spa(const std::vector<char*>& arguments, const char* folder,
+                                 const Surroundings& surroundings) const {
+        dup2(in.read_end, STDIN_FILENO);
+        dup2(out.write_end, STDOUT_FILENO);
+        dup2(err.write_end, STDERR_FILENO);
+        for (const Pipe* pipe : {&in, &out, &err}) {
+            close(pipe->read_end);
+            close(pipe->write_end);
+        }
+        take_surroundings(surroundings);
+        if (chdir(folder) == 0) execv(SPA_BINARY, arguments.data());
+        _exit(127);
+    }
+
+    [[nodiscard]] bool open() const { return out.read_end >= 0 || err.read_end >= 0; }
+};
+
+Process::Process(const std::vector<std::string>& arguments, const fs::path& folder, std::string input,
+                 const Surroundings& surroundings)
+    : input_(std::move(input)), streams_(std::make_unique<Streams>()) {
     std::signal(SIGPIPE, SIG_IGN); // the command may end without reading its input
     std::vector<std::string> texts{"spa"};
     texts.insert(texts.end(), arguments.begin(), arguments.end());
@@ -93,35 +101,68 @@ Outcome run(const std::vector<std::string>& arguments, const fs::path& folder, s
     pointers.reserve(texts.size() + 1);
     for (std::string& text : texts) pointers.push_back(text.data());
     pointers.push_back(nullptr);
-
-    Pipe in;
-    Pipe out;
-    Pipe err;
-    const pid_t child = fork();
-    if (child < 0) throw std::runtime_error("fork() failed");
-    if (child == 0) become_spa(pointers, folder.c_str(), in, out, err);
-    Pipe::close_end(in.read_end);
-    Pipe::close_end(out.write_end);
-    Pipe::close_end(err.write_end);
-
-    Outcome outcome;
-    exchange(in, out, err, input, outcome, child, signal);
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-    if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
-    return outcome;
+    id_ = fork();
+    if (id_ < 0) throw std::runtime_error("fork() failed");
+    if (id_ == 0) streams_->become_spa(pointers, folder.c_str(), surroundings);
+    // As the child does, so that it is true whoever comes first.
+    if (surroundings.leads_group) setpgid(id_, id_);
+    Pipe::close_end(streams_->in.read_end);
+    Pipe::close_end(streams_->out.write_end);
+    Pipe::close_end(streams_->err.write_end);
 }
 
-} // namespace
+Process::~Process() {
+    if (id_ < 0) return;
+    kill(id_, SIGKILL);
+    waitpid(id_, nullptr, 0);
+}
 
-Outcome run_spa(const std::vector<std::string>& arguments, const fs::path& folder, const std::string& input) {
-    return run(arguments, folder, input, 0);
+// All at once: a process that fills one pipe while another is waited for would hang.
+void Process::exchange(int at_most_milliseconds) {
+    auto& [in, out, err] = *streams_;
+    if (input_.empty()) Pipe::close_end(in.write_end);
+    std::array<pollfd, 3> waiting{
+        {{out.read_end, POLLIN, 0}, {err.read_end, POLLIN, 0}, {in.write_end, POLLOUT, 0}}};
+    if (poll(waiting.data(), waiting.size(), at_most_milliseconds) <= 0) return;
+    if (waiting[0].revents != 0 && !read_some(out.read_end, outcome_.out)) Pipe::close_end(out.read_end);
+    if (waiting[1].revents != 0 && !read_some(err.read_end, outcome_.err)) Pipe::close_end(err.read_end);
+    if (waiting[2].revents != 0) {
+        const ssize_t written =
+            write(in.write_end, input_.data(), std::min<std::size_t>(input_.size(), 4096));
+        input_.erase(0, written < 0 ? input_.size() : std::size_t(written));
+    }
+}
+
+bool Process::until(const std::function<bool()>& condition) {
+    while (!condition()) {
+        if (!streams_->open()) return false;
+        exchange(1);
+    }
+    return true;
+}
+
+Outcome Process::wait() {
+    while (streams_->open()) exchange(-1);
+    int status = 0;
+    rusage usage{};
+    while (wait4(id_, &status, 0, &usage) < 0 && errno == EINTR) {
+    }
+    id_ = -1;
+    if (WIFEXITED(status)) outcome_.exit_code = WEXITSTATUS(status);
+    if (WIFSIGNALED(status)) outcome_.signal = WTERMSIG(status);
+    outcome_.peak_kibibytes = usage.ru_maxrss;
+    return outcome_;
+}
+
+Outcome run_spa(const std::vector<std::string>& arguments, const fs::path& folder, const std::string& input,
+                const Surroundings& surroundings) {
+    return Process(arguments, folder, input, surroundings).wait();
 }
 
 Outcome interrupt_spa(const std::vector<std::string>& arguments, const fs::path& folder, int signal) {
-    return run(arguments, folder, "", signal);
+    Process process(arguments, folder);
+    if (process.until([&] { return !process.so_far().err.empty(); })) kill(process.id(), signal);
+    return process.wait();
 }
 
 TemporaryFolder::TemporaryFolder() {
