@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arguments of `spa bake`: from the command line to bake::Options, and to the JSON that goes into files
-// and reports.
+// The arguments of `spa bake`.
 #pragma once
 
-#include "arguments.h"
-
-#include "../libspa/bake/bake_options.h"
-
-#include <nlohmann/json.hpp>
+#include "bake_settings.h"
 
 #include <filesystem>
 #include <functional>
@@ -17,9 +12,9 @@ namespace spa::tools {
 
 struct BakeArguments {
     std::filesystem::path input, output;
-    bake::Options options;
-    bool compress = true; // zstd
-    bool measure = false;
+    BakeSettings settings;
+    bool make_folders = false; // those of the output that are missing; else they must be there
+    bool follow_links = false;
     ReportFormat format = ReportFormat::text;
     bool quiet = false;
 };
@@ -28,18 +23,10 @@ struct BakeArguments {
 // given. It throws Error{usage} where arguments contradict each other.
 std::function<BakeArguments()> define_bake_arguments(CLI::App& app);
 
-// Every option that the bytes of the output depend on, effective value, under the name that it has on the
-// command line and as text or number that the command line takes.
-nlohmann::ordered_json options_json(const BakeArguments& arguments);
+// description: of the value 0 too. threads: its value is the default.
+void add_threads(CLI::App& app, const std::string& description, unsigned& threads);
 
-// The size of a map as --size takes it: "256" (octahedral, cells a side) or "640x480".
-std::string size_text(const Grid& grid);
+// Limits::follow_links (import.h) as an option.
+void add_follow_links(CLI::App& app, bool& follow_links);
 
 } // namespace spa::tools
-
-namespace spa::bake {
-const char* name(Frame frame);
-const char* name(Center center);
-const char* name(Baker baker);
-const char* name(GlApi gl);
-} // namespace spa::bake

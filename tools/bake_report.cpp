@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake_report.h"
 
+#include "bake_key.h"
 #include "text.h"
 #include "validate_report.h"
 
@@ -12,16 +13,14 @@ using Json = nlohmann::ordered_json;
 
 Json source_json(const BakeFacts& facts) {
     const import::Report& report = facts.source.report;
-    Json files = Json::array();
-    for (const import::SourceFile& file : report.files)
-        files.push_back({{"name", file.name}, {"bytes", file.bytes}, {"xxh3", hex64(file.xxh3)}});
     const import::SourceFile& asset = report.files.front();
     return {
         {"name", asset.name},
         {"format", report.format},
         {"xxh3", hex64(asset.xxh3)},
         {"bytes", asset.bytes},
-        {"files", files},
+        {"files", files_json(report.files)},
+        {"missing", missing_json(report.missing)},
         {"vertices", facts.source.model.positions.size()},
         {"triangles", facts.source.model.triangles.size()},
         {"materials", facts.source.model.materials.size()},
@@ -109,13 +108,20 @@ std::string metadata(const BakeFacts& facts) {
     report["warnings"] = messages;
     Json json = {
         {"generator", {{"name", "spa"}, {"version", SPA_VERSION}}},
+        {"key", bake_key(facts)},
         {"source", source_json(facts)},
-        {"options", options_json(facts.arguments)},
+        {"options", options_json(facts.arguments.settings)},
         {"report", report},
         {"units", "object"},
     };
     if (facts.measurement != nullptr) json["figures"] = figures_json(*facts.measurement);
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string bake_key(const BakeFacts& facts) {
+    const import::Report& source = facts.source.report;
+    return bake_key(files_json(source.files), missing_json(source.missing),
+                    options_json(facts.arguments.settings), SPA_VERSION);
 }
 
 std::vector<std::string> warnings(const BakeFacts& facts) {
@@ -129,8 +135,9 @@ Json report_json(const BakeFacts& facts, Json output, double seconds) {
     if (!facts.bake.gl.empty()) report["gl"] = facts.bake.gl;
     report["warnings"] = warnings(facts);
     return {
+        {"key", bake_key(facts)},
         {"source", source_json(facts)},
-        {"options", options_json(facts.arguments)},
+        {"options", options_json(facts.arguments.settings)},
         {"report", report},
         {"figures", facts.measurement == nullptr ? Json(nullptr) : figures_json(*facts.measurement)},
         {"output", std::move(output)},
@@ -146,7 +153,7 @@ std::string report_text(const BakeFacts& facts, std::uint64_t output_bytes, doub
                                std::to_string(facts.source.model.positions.size()) + " vertices, " +
                                std::to_string(bake.triangles) + " triangles");
     text += line("mesh", mesh_text(bake));
-    text += line("map", options_text(facts.arguments.options));
+    text += line("map", options_text(facts.arguments.settings.options));
     if (!bake.gl.empty()) text += line("gl", bake.gl);
     for (std::size_t i = 0; i < bake.layers.size(); ++i)
         text += line(i == 0 ? "layers" : "",

@@ -30,6 +30,9 @@ struct BakeFacts {
 // machine or driver.
 std::string metadata(const BakeFacts& facts);
 
+// bake_key.h, of these facts; "key" in the metadata.
+std::string bake_key(const BakeFacts& facts);
+
 // The warnings of the import and of the bake, in this order.
 std::vector<std::string> warnings(const BakeFacts& facts);
 

@@ -32,7 +32,7 @@ constexpr ExitStatus exit_statuses[] = {
     {ExitCode::invalid_data, "A file was read and its content is wrong."},
     {ExitCode::internal, "An internal error."},
     {ExitCode::unsupported, "Valid, but it needs something that this build or this machine lacks."},
-    {ExitCode::limits, "A measured figure misses a threshold that was set."},
+    {ExitCode::limits, "A limit that was set is missed: a measured figure, the time of a bake."},
 };
 
 void section(std::ostream& out, const char* title) { out << '\n' << title << '\n'; }

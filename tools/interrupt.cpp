@@ -38,6 +38,11 @@ void InterruptGuard::check() {
     if (received_signal != 0) throw bake::Cancelled{};
 }
 
+void forget_interrupts() {
+    for (const int number : handled_signals) static_cast<void>(std::signal(number, SIG_DFL));
+    received_signal = 0;
+}
+
 int interrupt_signal() { return int(received_signal); }
 
 } // namespace spa::tools

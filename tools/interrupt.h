@@ -5,6 +5,7 @@
 
 #include <array>
 #include <csignal>
+#include <stdexcept>
 
 namespace spa::tools {
 
@@ -21,6 +22,15 @@ public:
 
 private:
     std::array<struct sigaction, 4> previous_{};
+};
+
+// For a process just forked from one that has a guard: signals do again what they did before it.
+void forget_interrupts();
+
+// Thrown where work was ended by a signal after part of it was done; the message says what is left.
+class Interrupted : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
 };
 
 // The signal that came while a guard lived; 0 = none.

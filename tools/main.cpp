@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "failure.h"
 #include "interrupt.h"
 #include "near_names.h"
 #include "output.h"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <csignal>
 #include <iostream>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -70,29 +70,31 @@ int dispatch(const std::vector<std::string>& arguments, std::string& hint) {
     return run_verb(*verb, {arguments.begin() + 1, arguments.end()});
 }
 
+// The caller (a shell, make) is to see the signal, not a code that looks like a failure.
+int end_by_signal() {
+    const int number = interrupt_signal();
+    if (number != 0) {
+        static_cast<void>(std::signal(number, SIG_DFL));
+        static_cast<void>(std::raise(number));
+    }
+    return 130;
+}
+
 int run(const std::vector<std::string>& arguments) {
     std::string hint;
     try {
         return dispatch(arguments, hint);
-    } catch (const Error& error) {
-        std::cerr << "spa: " << error.what() << '\n';
-        if (error.code() == ExitCode::usage) std::cerr << "spa: see '" << hint << "'\n";
-        return int(error.code());
     } catch (const bake::Cancelled&) {
         std::cerr << "spa: interrupted; nothing was written\n";
-        // The caller (a shell, make) is to see the signal, not a code that looks like a failure.
-        const int number = interrupt_signal();
-        if (number != 0) {
-            static_cast<void>(std::signal(number, SIG_DFL));
-            static_cast<void>(std::raise(number));
-        }
-        return 130;
-    } catch (const std::bad_alloc&) {
-        std::cerr << "spa: out of memory; bake smaller maps or fewer layers\n";
-        return int(ExitCode::unsupported);
-    } catch (const std::exception& error) {
-        std::cerr << "spa: internal error: " << error.what() << "; please report it with the command line\n";
-        return int(ExitCode::internal);
+        return end_by_signal();
+    } catch (const Interrupted& interrupted) {
+        std::cerr << "spa: " << interrupted.what() << '\n';
+        return end_by_signal();
+    } catch (...) {
+        const Failure failure = current_failure();
+        std::cerr << "spa: " << failure.message << '\n';
+        if (failure.code == ExitCode::usage) std::cerr << "spa: see '" << hint << "'\n";
+        return int(failure.code);
     }
 }
 

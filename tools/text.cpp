@@ -43,6 +43,16 @@ std::string hex64(std::uint64_t value) {
     return out.str();
 }
 
+std::string hexadecimal(std::string_view bytes) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string text;
+    for (const char c : bytes) {
+        const auto value = static_cast<unsigned char>(c);
+        text += {digits[value >> 4U], digits[value & 15U]};
+    }
+    return text;
+}
+
 std::string pad_left(std::string text, std::size_t width) {
     if (text.size() < width) text.insert(0, width - text.size(), ' ');
     return text;

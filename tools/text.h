@@ -20,6 +20,8 @@ std::string percent(double share, int decimals = 1);
 std::string byte_count(std::uint64_t bytes);
 // 16 lower-case hexadecimal digits.
 std::string hex64(std::uint64_t value);
+// Two lower-case digits a byte.
+std::string hexadecimal(std::string_view bytes);
 std::string pad_left(std::string text, std::size_t width);
 std::string pad_right(std::string text, std::size_t width);
 // Breaks at spaces so that no line is longer than `width` (words longer than that stand alone). Empty lines

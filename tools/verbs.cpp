@@ -7,6 +7,7 @@
 namespace spa::tools {
 
 Verb bake_verb();
+Verb batch_verb();
 Verb inspect_verb();
 Verb extract_verb();
 Verb validate_verb();
@@ -19,12 +20,12 @@ Verb bench_verb();
 Verb help_verb();
 
 std::span<const Verb> verbs() {
-    static const std::vector<Verb> table{bake_verb(),     inspect_verb(), extract_verb(),
-                                         validate_verb(), compare_verb(),
+    static const std::vector<Verb> table{bake_verb(),    batch_verb(),    inspect_verb(),
+                                         extract_verb(), validate_verb(), compare_verb(),
 #ifdef SPA_HAS_RENDER
                                          render_verb(),
 #endif
-                                         sample_verb(),   bench_verb(),   help_verb()};
+                                         sample_verb(),  bench_verb(),    help_verb()};
     return table;
 }
 

@@ -13,7 +13,7 @@ Status check(std::span<const std::byte> file, const Limits& limits, CheckDepth d
         Source source(file);
         Loaded loaded;
         return load_file(source, file.size(), limits, depth,
-                         depth == CheckDepth::full ? LoadImages::yes : LoadImages::no, loaded);
+                         depth == CheckDepth::full ? LoadPart::all : LoadPart::nothing, loaded);
     } catch (const std::bad_alloc&) {
         return at_byte(Issue::out_of_memory, 0);
     }

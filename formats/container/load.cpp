@@ -75,7 +75,7 @@ public:
     Status read_section(std::size_t i) {
         const SectionEntry& entry = structure_.sections[i];
         const bool full = depth_ == CheckDepth::full;
-        if (!structure_.knows(entry.type)) return skip(i);
+        if (!structure_.knows(entry.type)) return skip(i, full);
         if (entry.raw_length > std::uint64_t(PTRDIFF_MAX))
             return at_section(Issue::out_of_memory, structure_, i);
         Bytes bytes;
@@ -102,6 +102,15 @@ public:
         return {};
     }
 
+    // Up to the metadata, and no further.
+    Status read_metadata() {
+        for (std::size_t i = 1; i < structure_.sections.size(); ++i) {
+            if (structure_.sections[i].type == type_metadata) return read_section(i);
+            if (const Status status = skip(i, false); !status.ok()) return status;
+        }
+        return {};
+    }
+
 private:
     Status read_padding(std::size_t i, bool verify) {
         const std::uint64_t from = source_.position();
@@ -125,19 +134,18 @@ private:
     }
 
     // An unknown section may be larger than what is worth holding.
-    Status skip(std::size_t i) {
+    Status skip(std::size_t i, bool verify) {
         constexpr std::uint64_t piece = std::uint64_t(1) << 20U;
-        const bool full = depth_ == CheckDepth::full;
-        const Status status = read_padding(i, full);
+        const Status status = read_padding(i, verify);
         if (!status.ok()) return status;
         RunningChecksum sum;
         for (std::uint64_t left = structure_.sections[i].stored_length; left > 0;) {
             Bytes bytes;
             if (!source_.take(std::min(piece, left), bytes)) return cut_off(structure_, i, source_);
             left -= bytes.view.size();
-            if (full) sum.add(bytes.view);
+            if (verify) sum.add(bytes.view);
         }
-        if (full && sum.value() != structure_.sections[i].checksum)
+        if (verify && sum.value() != structure_.sections[i].checksum)
             return at_section(Issue::checksum_mismatch, structure_, i);
         return {};
     }
@@ -152,11 +160,12 @@ private:
 } // namespace
 
 Status load_file(Source& source, std::uint64_t source_size, const Limits& limits, CheckDepth depth,
-                 LoadImages images, Loaded& loaded) {
+                 LoadPart part, Loaded& loaded) {
     Loader loader(source, limits, depth, loaded);
     Status status = loader.read_front(source_size);
     if (status.ok()) status = loader.read_parts();
-    if (!status.ok() || images == LoadImages::no) return status;
+    if (!status.ok() || part == LoadPart::nothing) return status;
+    if (part == LoadPart::metadata) return loader.read_metadata();
     for (std::size_t i = 1; i < loaded.structure.sections.size(); ++i) {
         status = loader.read_section(i);
         if (!status.ok()) return status;

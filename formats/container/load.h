@@ -15,12 +15,16 @@ struct Loaded {
     std::vector<std::vector<std::byte>> buffers;
 };
 
-// What to do after the structure has been checked.
-enum class LoadImages : bool { no, yes };
+// What to read after the structure has been checked.
+enum class LoadPart : std::uint8_t {
+    nothing,
+    metadata, // with its checksum; of the images nothing is checked
+    all,
+};
 
 // Reads and checks. On failure `loaded` is unspecified. Throws std::bad_alloc.
 Status load_file(Source& source, std::uint64_t source_size, const Limits& limits, CheckDepth depth,
-                 LoadImages images, Loaded& loaded);
+                 LoadPart part, Loaded& loaded);
 
 // The size of a source that cannot say.
 constexpr std::uint64_t unknown_size = UINT64_MAX;

@@ -64,4 +64,8 @@ Status open(std::span<const std::byte> bytes, File& file, const ReadOptions& opt
 // stream is the caller's business.
 Status read(const ReadExactly& read_exactly, File& file, const ReadOptions& options = {}) noexcept;
 
+// The metadata alone: checks header, table, parts and metadata as a full check does, and touches no image, so
+// that it costs microseconds whatever the size of the maps. On failure `metadata` is left empty.
+Status read_metadata(const std::string& path, std::string& metadata, const Limits& limits = {}) noexcept;
+
 } // namespace spa::container

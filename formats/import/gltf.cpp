@@ -176,11 +176,9 @@ void assemble(const tinygltf::Model& model, Buffers& buffers, Images& images, co
 }
 
 void read(const Context& context, const Target& target) {
-    const auto& [path, limits, report] = context;
-    const std::vector<std::byte> file = read_file(path, limits);
-    add_source(report, path.filename().string(), file);
-    const Container container = split_container(file, context);
-    report.format = container.binary ? "GLB" : "glTF";
+    add_source(context.report, context.asset);
+    const Container container = split_container(context.asset.file.bytes, context);
+    context.report.format = container.binary ? "GLB" : "glTF";
     Json document = parse_json(container.json, context);
     check_document(document, context);
     SceneParts parts;
@@ -220,15 +218,15 @@ void read_with_causes(const Context& context, const Target& target) {
 } // namespace
 } // namespace gltf
 
-Result read_gltf(const std::filesystem::path& path, const Limits& limits) {
+Result read_gltf(const Asset& asset, const Limits& limits) {
     Result result;
-    gltf::read_with_causes({path, limits, result.report}, {result.model});
+    gltf::read_with_causes({asset, limits, result.report}, {result.model});
     return result;
 }
 
-SceneResult read_gltf_scene(const std::filesystem::path& path, const Limits& limits) {
+SceneResult read_gltf_scene(const Asset& asset, const Limits& limits) {
     SceneResult result;
-    gltf::read_with_causes({path, limits, result.report}, {result.scene.model, &result.scene});
+    gltf::read_with_causes({asset, limits, result.report}, {result.scene.model, &result.scene});
     return result;
 }
 

@@ -25,16 +25,17 @@ Buffers::Buffers(Json& document, const Container& container, const Context& cont
                 bytes = embedded_[i];
                 buffer.erase("uri");
             } else {
-                const Reference reference = resolve_reference(context.path, uri, Encoding::uri);
+                const Reference reference = resolve_reference(context.asset.path, uri, Encoding::uri);
                 auto found = files_.find(reference.name);
                 if (found == files_.end()) {
-                    std::error_code code;
-                    if (!std::filesystem::is_regular_file(reference.path, code))
+                    std::optional<FileContent> content =
+                        read_reference(context.asset, reference, context.limits);
+                    if (!content)
                         fail(context, where + ".uri", "the file '" + reference.name + "' does not exist");
-                    found = files_.emplace(reference.name, read_file(reference.path, context.limits)).first;
+                    found = files_.emplace(reference.name, std::move(*content)).first;
                     add_source(context.report, reference.name, found->second);
                 }
-                bytes = found->second;
+                bytes = found->second.bytes;
             }
         } else if (i == 0 && container.bin) {
             bytes = *container.bin;

@@ -39,8 +39,8 @@ private:
     };
 
     Context context_;
-    std::map<std::string, std::vector<std::byte>> files_; // by resolved name
-    std::vector<std::vector<std::byte>> embedded_;        // of "data:" URIs
+    std::map<std::string, FileContent> files_;     // by resolved name
+    std::vector<std::vector<std::byte>> embedded_; // of "data:" URIs
     std::vector<std::optional<std::span<const std::byte>>> buffers_;
     std::vector<View> views_;
     std::map<std::size_t, std::vector<std::byte>> decoded_; // meshopt views

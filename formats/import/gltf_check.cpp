@@ -223,7 +223,7 @@ void check_asset(const Json& document, const Context& context) {
     for (const Json& extension : member_of(document, "extensionsRequired")) {
         const std::string& name = extension.get_ref<const std::string&>();
         if (!is_accepted(name))
-            throw Error(ExitCode::unsupported, context.path.string() + ": extensionsRequired: " + name +
+            throw Error(ExitCode::unsupported, context.asset.path.string() + ": extensionsRequired: " + name +
                                                    " is not supported; export the asset without it");
     }
 }

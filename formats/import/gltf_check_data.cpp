@@ -168,7 +168,7 @@ void check_images(const Json& document, const Context& context) {
             fail(context, where, uri ? "has both a uri and a bufferView" : "has no uri and no bufferView");
         if (view && !images[i].contains("mimeType")) warn(context, where, "has a bufferView but no mimeType");
         if (uri && images[i]["uri"].get_ref<const std::string&>().rfind("data:", 0) != 0)
-            (void)resolve_reference(context.path, images[i]["uri"].get_ref<const std::string&>(),
+            (void)resolve_reference(context.asset.path, images[i]["uri"].get_ref<const std::string&>(),
                                     Encoding::uri);
     }
 }

@@ -6,14 +6,13 @@
 #include "import.h"
 #include "source_file.h"
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace spa::import::gltf {
 
 struct Context {
-    const std::filesystem::path& path; // of the asset
+    const Asset& asset;
     const Limits& limits;
     Report& report;
 };
@@ -21,7 +20,7 @@ struct Context {
 // `where` is the place in the document, as in "accessors[3].bufferView"; may be empty.
 [[noreturn]] inline void fail(const Context& context, const std::string& where, const std::string& what) {
     throw Error(ExitCode::invalid_data,
-                context.path.string() + ": " + (where.empty() ? "" : where + ": ") + what);
+                context.asset.path.string() + ": " + (where.empty() ? "" : where + ": ") + what);
 }
 
 inline void warn(const Context& context, const std::string& where, const std::string& what) {

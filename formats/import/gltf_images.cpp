@@ -6,21 +6,10 @@
 #include "image_header.h"
 #include "texture.h"
 
-#include <fstream>
-
 namespace spa::import::gltf {
 namespace {
 
-constexpr std::size_t head_bytes = 65536;
-
-// The first bytes of a file, fewer or none if it is shorter or cannot be read.
-std::vector<std::byte> read_head(const std::filesystem::path& path) {
-    std::vector<std::byte> bytes(head_bytes);
-    std::ifstream file(path, std::ios::binary);
-    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    bytes.resize(static_cast<std::size_t>(file.gcount()));
-    return bytes;
-}
+constexpr std::size_t head_bytes = 65536; // of an image that is not used
 
 // The first bytes of what a "data:" URI holds. Base64 makes 3 bytes of 4 characters.
 std::optional<std::vector<std::byte>> decode_head(std::string_view uri) {
@@ -51,7 +40,7 @@ std::uint32_t Images::texture(std::size_t image, Model& model) {
     const std::string where = at("images", image);
     const bool external = !entry.uri.empty() && !is_data_uri(entry.uri);
     Reference reference;
-    if (external) reference = resolve_reference(context_.path, entry.uri, Encoding::uri);
+    if (external) reference = resolve_reference(context_.asset.path, entry.uri, Encoding::uri);
     const std::string name =
         external ? reference.name : where + (entry.name.empty() ? "" : " '" + entry.name + "'");
     const std::string key = entry.uri.empty() ? at("bufferViews", entry.view) : name;
@@ -61,12 +50,11 @@ std::uint32_t Images::texture(std::size_t image, Model& model) {
     std::vector<std::byte> storage;
     std::span<const std::byte> bytes;
     if (external) {
-        std::error_code code;
-        if (!std::filesystem::is_regular_file(reference.path, code))
-            fail(context_, where + ".uri", "the file '" + name + "' does not exist");
-        storage = read_file(reference.path, context_.limits);
+        std::optional<FileContent> content = read_reference(context_.asset, reference, context_.limits);
+        if (!content) fail(context_, where + ".uri", "the file '" + name + "' does not exist");
+        add_source(context_.report, name, *content);
+        storage = std::move(content->bytes);
         bytes = storage;
-        add_source(context_.report, name, bytes);
     } else if (!entry.uri.empty()) {
         std::optional<std::vector<std::byte>> decoded = decode_data_uri(entry.uri);
         if (!decoded) fail(context_, where + ".uri", "is a malformed data: URI");
@@ -80,11 +68,27 @@ std::uint32_t Images::texture(std::size_t image, Model& model) {
         model.textures.push_back(read_texture(bytes, name, context_.limits));
     } catch (const Error& error) {
         throw Error(error.code(),
-                    context_.path.string() + ": " + (external ? where + ": " : "") + error.what());
+                    context_.asset.path.string() + ": " + (external ? where + ": " : "") + error.what());
     }
     const auto index = static_cast<std::uint32_t>(model.textures.size() - 1);
     textures_.emplace(key, index);
     return index;
+}
+
+std::optional<FileContent> Images::read_unused(const Reference& reference, const std::string& where) {
+    try {
+        std::optional<FileContent> content =
+            read_reference(context_.asset, reference, context_.limits, head_bytes);
+        if (!content) {
+            add_missing(context_.report, reference.name);
+            warn(context_, where, "the file '" + reference.name + "' does not exist");
+        }
+        return content;
+    } catch (const Error& error) {
+        if (error.code() != ExitCode::input_output) throw;
+        warn(context_, where, error.what());
+        return std::nullopt;
+    }
 }
 
 void Images::check_unused() {
@@ -105,13 +109,10 @@ void Images::check_unused() {
             storage = std::move(*decoded);
             bytes = storage;
         } else {
-            const Reference reference = resolve_reference(context_.path, entry.uri, Encoding::uri);
-            std::error_code code;
-            if (!std::filesystem::is_regular_file(reference.path, code)) {
-                warn(context_, where + ".uri", "the file '" + reference.name + "' does not exist");
-                continue;
-            }
-            storage = read_head(reference.path);
+            const Reference reference = resolve_reference(context_.asset.path, entry.uri, Encoding::uri);
+            std::optional<FileContent> content = read_unused(reference, where + ".uri");
+            if (!content) continue;
+            storage = std::move(content->bytes);
             bytes = storage;
         }
         const ImageKind kind = image_kind(bytes);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ private:
         std::string name;
         bool used = false;
     };
+    // The first bytes of a file; nothing, with a warning, if they cannot be read.
+    std::optional<FileContent> read_unused(const Reference& reference, const std::string& where);
+
     Buffers& buffers_;
     Context context_;
     std::vector<Entry> entries_;

@@ -88,7 +88,7 @@ int image_of(const tinygltf::Texture& texture, const std::string& where, const C
     }
     if (texture.extensions.count("KHR_texture_basisu") != 0)
         throw Error(ExitCode::unsupported,
-                    context.path.string() + ": " + where +
+                    context.asset.path.string() + ": " + where +
                         " needs KHR_texture_basisu, which is not supported; export PNG or JPEG textures");
     warn(context, where, "has no image: the material is drawn without it");
     return -1;

@@ -3,19 +3,22 @@
 #include "import.h"
 
 #include "../../libspa/core/error.h"
+#include "open_file.h"
 #include "readers.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstring>
-#include <fstream>
+#include <span>
 #include <string_view>
 #include <utility>
 
 namespace spa::import {
 namespace {
 
-using Reader = Result (*)(const std::filesystem::path&, const Limits&);
+using Reader = Result (*)(const Asset&, const Limits&);
+
+constexpr std::size_t head_bytes = 512; // tell the formats apart
 
 constexpr std::size_t binary_stl_header = 84; // 80 bytes of text and the number of triangles
 constexpr std::size_t binary_stl_triangle = 50;
@@ -70,23 +73,9 @@ Reader reader_by_extension(const std::filesystem::path& path) {
     return nullptr;
 }
 
-Reader find_reader(const std::filesystem::path& path) {
-    std::error_code code;
-    const std::filesystem::file_status status = std::filesystem::status(path, code);
-    if (!std::filesystem::exists(status))
-        throw Error(ExitCode::input_output, path.string() + ": no such file; check the path");
-    if (!std::filesystem::is_regular_file(status))
-        throw Error(ExitCode::input_output, path.string() + ": not a regular file");
-    const std::uint64_t size = std::filesystem::file_size(path, code);
-    std::ifstream file(path, std::ios::binary);
-    if (code || !file)
-        throw Error(ExitCode::input_output, path.string() + ": cannot be opened; check its permissions");
-    std::string head(512, '\0');
-    file.read(head.data(), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(file.gcount()));
-    file.close();
-
-    Reader reader = reader_by_content(head, size);
+Reader find_reader(const std::filesystem::path& path, std::span<const std::byte> head, std::uint64_t size) {
+    const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+    Reader reader = reader_by_content(text, size);
     if (reader == nullptr) reader = reader_by_extension(path);
     if (reader == nullptr)
         throw Error(ExitCode::invalid_data, path.string() + ": neither the content nor the extension is that "
@@ -94,23 +83,45 @@ Reader find_reader(const std::filesystem::path& path) {
     return reader;
 }
 
-} // namespace
-
-Result read_model(const std::filesystem::path& path, const Limits& limits) {
-    return find_reader(path)(path, limits);
+Reader find_reader(const Asset& asset) {
+    const std::span<const std::byte> bytes = asset.file.bytes;
+    return find_reader(asset.path, bytes.first(std::min(bytes.size(), head_bytes)), bytes.size());
 }
 
-SceneResult read_scene(const std::filesystem::path& path, const Limits& limits) {
-    const Reader reader = find_reader(path);
-    if (reader == read_gltf) return read_gltf_scene(path, limits);
-    if (reader == read_obj) return read_obj_scene(path, limits);
-    Result read = reader(path, limits);
+// The folder is looked up first: were the asset's folder exchanged for a link meanwhile, its references would
+// lead to where no asset was named.
+Asset open_asset(const std::filesystem::path& path, const Limits& limits) {
+    Asset asset{path, {}, real_folder(path.parent_path())};
+    // What is no asset is not read in full.
+    const FileContent head = read_file(path, limits, head_bytes);
+    (void)find_reader(path, head.bytes, head.state.size);
+    asset.file = read_file(path, limits);
+    return asset;
+}
+
+} // namespace
+
+Result read_asset(const Asset& asset, const Limits& limits) { return find_reader(asset)(asset, limits); }
+
+SceneResult read_asset_scene(const Asset& asset, const Limits& limits) {
+    const Reader reader = find_reader(asset);
+    if (reader == read_gltf) return read_gltf_scene(asset, limits);
+    if (reader == read_obj) return read_obj_scene(asset, limits);
+    Result read = reader(asset, limits);
     SceneResult result;
     result.report = std::move(read.report);
     result.scene.model = std::move(read.model);
-    result.scene.nodes.push_back({path.stem().string(), no_index, {}});
+    result.scene.nodes.push_back({asset.path.stem().string(), no_index, {}});
     result.scene.triangle_nodes.assign(result.scene.model.triangles.size(), 0);
     return result;
+}
+
+Result read_model(const std::filesystem::path& path, const Limits& limits) {
+    return read_asset(open_asset(path, limits), limits);
+}
+
+SceneResult read_scene(const std::filesystem::path& path, const Limits& limits) {
+    return read_asset_scene(open_asset(path, limits), limits);
 }
 
 } // namespace spa::import

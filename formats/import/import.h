@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,21 @@ struct Limits {
     std::uint64_t triangles = 1ULL << 28;      // in the flattened model
     std::uint64_t texture_pixels = 1ULL << 28; // of one image
     std::uint32_t node_depth = 256;            // of a node hierarchy
+    // Whether references may lead out of the asset's folder through symbolic links; if not, such a reference
+    // is Error(invalid_data). The asset itself may be a link: its folder is that of the link.
+    bool follow_links = false;
 };
+
+// What the file system says of a file; of equal states a file is taken as unchanged.
+struct FileState {
+    std::uint64_t device = 0, inode = 0, size = 0;
+    std::int64_t mtime_ns = 0, ctime_ns = 0; // of the content's and the inode's last change, since 1970
+
+    bool operator==(const FileState&) const = default;
+};
+
+// Of the file of this name, symbolic links followed; nothing if there is no regular file.
+std::optional<FileState> file_state(const std::filesystem::path& path);
 
 // One file that the model was made from; the asset itself first, then what it references, in the order of
 // the first reference.
@@ -26,11 +41,15 @@ struct SourceFile {
     std::string name; // as referenced, relative to the asset's folder; the asset: its file name
     std::uint64_t bytes = 0;
     std::uint64_t xxh3 = 0; // XXH3-64 of the content
+    FileState state;        // before and after it was read
 };
 
 struct Report {
     std::string format; // "glTF", "GLB", "OBJ", "PLY", "STL" or "OFF"
     std::vector<SourceFile> files;
+    // Files that were looked for and absent, without an error: with one of them the result would be another.
+    // Names as in SourceFile, each once. OBJ and MTL take a file whose name differs in the case of letters.
+    std::vector<std::string> missing;
     std::vector<std::string> warnings;    // full sentences; each distinct one once, in order
     std::uint64_t dropped_degenerate = 0; // triangles with two equal corners in the index buffer or no area
     std::uint64_t dropped_non_finite = 0; // triangles with a NaN or infinite corner
@@ -44,10 +63,10 @@ struct Result {
 };
 
 // Reads a model; the format is recognised by content first, then by extension (.gltf .glb .obj .ply .stl
-// .off, any case). Throws Error: input_output if the file cannot be opened or read, invalid_data if the
-// content is wrong or holds nothing to bake, unsupported for a valid file that needs what we do not read (an
-// unknown required extension: by name). Every message starts with the path.
-// Deterministic. Time and memory linear in the size of the files and of the flattened model.
+// .off, any case). Throws Error: input_output if a file cannot be opened or read or changes meanwhile,
+// invalid_data if the content is wrong or holds nothing to bake, unsupported for a valid file that needs what
+// we do not read (an unknown required extension: by name). Every message starts with the path. Deterministic.
+// Time and memory linear in the size of the files and of the flattened model.
 Result read_model(const std::filesystem::path& path, const Limits& limits = {});
 
 struct SceneResult {

@@ -85,9 +85,9 @@ const PictureLayer* LinearPicture::find(std::string_view name) const {
 
 LinearPicture read_picture(const std::filesystem::path& path, std::span<const std::string_view> layers,
                            const Limits& limits) {
-    const std::vector<std::byte> bytes = read_file(path, limits);
+    const FileContent file = read_file(path, limits);
     try {
-        return decode(bytes, path.string(), layers, limits);
+        return decode(file.bytes, path.string(), layers, limits);
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {

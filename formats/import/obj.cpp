@@ -70,8 +70,9 @@ std::string_view strip_comment(std::string_view line) {
 class ObjParser {
 public:
     // nodes: where objects and groups are kept; null where nobody asks for them.
-    ObjParser(const std::filesystem::path& path, const Limits& limits, Report& report, ObjNodes* nodes)
-        : path_(path), limits_(limits), report_(report), materials_(path, limits, report), nodes_(nodes) {}
+    ObjParser(const Asset& asset, const Limits& limits, Report& report, ObjNodes* nodes)
+        : path_(asset.path), limits_(limits), report_(report), materials_(asset, limits, report),
+          nodes_(nodes) {}
 
     PolygonSoup parse(std::string_view text) {
         ObjLines lines;
@@ -318,24 +319,23 @@ private:
 
 } // namespace
 
-Result read_obj(const std::filesystem::path& path, const Limits& limits) {
-    const std::vector<std::byte> bytes = read_file(path, limits);
+Result read_obj(const Asset& asset, const Limits& limits) {
     Result result;
     result.report.format = "OBJ";
-    add_source(result.report, path.filename().string(), bytes);
-    PolygonSoup soup = ObjParser(path, limits, result.report, nullptr).parse(as_text(bytes));
-    result.model = to_model(std::move(soup), path, limits, result.report);
+    add_source(result.report, asset);
+    PolygonSoup soup = ObjParser(asset, limits, result.report, nullptr).parse(as_text(asset.file.bytes));
+    result.model = to_model(std::move(soup), asset.path, limits, result.report);
     return result;
 }
 
-SceneResult read_obj_scene(const std::filesystem::path& path, const Limits& limits) {
-    const std::vector<std::byte> bytes = read_file(path, limits);
+SceneResult read_obj_scene(const Asset& asset, const Limits& limits) {
     SceneResult result;
     result.report.format = "OBJ";
-    add_source(result.report, path.filename().string(), bytes);
-    ObjNodes nodes(path);
-    PolygonSoup soup = ObjParser(path, limits, result.report, &nodes).parse(as_text(bytes));
-    result.scene.model = to_model(std::move(soup), path, limits, result.report, &result.scene.triangle_nodes);
+    add_source(result.report, asset);
+    ObjNodes nodes(asset.path);
+    PolygonSoup soup = ObjParser(asset, limits, result.report, &nodes).parse(as_text(asset.file.bytes));
+    result.scene.model =
+        to_model(std::move(soup), asset.path, limits, result.report, &result.scene.triangle_nodes);
     result.scene.nodes = nodes.take();
     return result;
 }

@@ -2,7 +2,6 @@
 #include "obj_materials.h"
 
 #include "../../libspa/core/error.h"
-#include "source_file.h"
 #include "text.h"
 #include "texture.h"
 
@@ -26,12 +25,8 @@ std::optional<std::string> find_entry(const fs::path& folder, std::string_view n
     return found;
 }
 
-// Where the file of a reference really is: exporters run where the case of letters in a file name does not
-// matter. Nothing if there is none.
-std::optional<Reference> find_file(const fs::path& asset, std::string_view text) {
-    Reference reference = resolve_reference(asset, text, Encoding::file_name);
-    std::error_code code;
-    if (fs::exists(reference.path, code)) return reference;
+// The reference with the case of letters that its file has. Nothing if there is none.
+std::optional<Reference> find_file(const fs::path& asset, const Reference& reference) {
     fs::path folder = asset.parent_path();
     if (folder.empty()) folder = ".";
     std::string name;
@@ -95,12 +90,30 @@ Texture white_texture(const Texture& dissolve) {
 
 } // namespace
 
+// Exporters run where the case of letters in a file name does not matter.
+std::optional<ObjMaterials::FoundFile> ObjMaterials::read(std::string_view text) {
+    const Reference reference = resolve_reference(asset_.path, text, Encoding::file_name);
+    std::string name = reference.name;
+    std::optional<FileContent> content = read_reference(asset_, reference, limits_);
+    if (!content) {
+        const std::optional<Reference> found = find_file(asset_.path, reference);
+        if (found) {
+            name = found->name;
+            content = read_reference(asset_, *found, limits_);
+        }
+    }
+    if (!content) {
+        add_missing(report_, reference.name);
+        return std::nullopt;
+    }
+    add_source(report_, name, *content);
+    return FoundFile{std::move(name), std::move(*content)};
+}
+
 bool ObjMaterials::read_library(std::string_view reference) {
-    const auto found = find_file(asset_, reference);
+    const auto found = read(reference);
     if (!found) return false;
-    const std::vector<std::byte> bytes = read_file(found->path, limits_);
-    add_source(report_, found->name, bytes);
-    for (MtlMaterial& material : parse_mtl(as_text(bytes), found->name, report_)) {
+    for (MtlMaterial& material : parse_mtl(as_text(found->content.bytes), found->name, report_)) {
         const std::string name = material.name;
         materials_.try_emplace(name, Found{std::move(material), found->name});
     }
@@ -121,18 +134,16 @@ std::optional<Texture> ObjMaterials::load(const std::optional<MtlMap>& map, cons
     if (!map) return std::nullopt;
     const std::string where =
         "material " + quote(found.material.name) + " of " + found.library + ": texture " + quote(map->file);
-    auto file = find_file(asset_, map->file);
-    if (!file) file = find_file(asset_, folder_of(found.library) + map->file);
+    auto file = read(map->file);
+    if (!file) file = read(folder_of(found.library) + map->file);
     if (!file) {
         warn(report_, where + " is missing; the material goes without it.");
         return std::nullopt;
     }
-    const std::vector<std::byte> bytes = read_file(file->path, limits_);
-    add_source(report_, file->name, bytes);
     try {
-        return read_texture(bytes, file->name, limits_);
+        return read_texture(file->content.bytes, file->name, limits_);
     } catch (const Error& error) {
-        throw Error(error.code(), asset_.string() + ": " + where + ": " + error.what());
+        throw Error(error.code(), asset_.path.string() + ": " + where + ": " + error.what());
     }
 }
 

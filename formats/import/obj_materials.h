@@ -5,8 +5,8 @@
 #include "import.h"
 #include "mtl.h"
 #include "polygon_soup.h"
+#include "source_file.h"
 
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,8 +38,8 @@ struct ObjMaterial {
 //   error.
 class ObjMaterials {
 public:
-    ObjMaterials(std::filesystem::path asset, const Limits& limits, Report& report)
-        : asset_(std::move(asset)), limits_(limits), report_(report) {}
+    ObjMaterials(const Asset& asset, const Limits& limits, Report& report)
+        : asset_(asset), limits_(limits), report_(report) {}
 
     // The rest of a mtllib statement: one file name with or without blanks, or several. The first material of
     // a name counts. A missing library is a warning. Throws Error for a reference that leaves the folder.
@@ -60,11 +60,17 @@ private:
         std::uint32_t index = no_index;
         bool blends = false;
     };
+    // A file that was referred to, and the name by which it was found.
+    struct FoundFile {
+        std::string name;
+        FileContent content;
+    };
+    std::optional<FoundFile> read(std::string_view reference);
     bool read_library(std::string_view reference);
     std::optional<Texture> load(const std::optional<MtlMap>& map, const Found& found);
     MadeTexture make_texture(const Found& found, std::vector<Texture>& textures);
 
-    std::filesystem::path asset_;
+    const Asset& asset_;
     const Limits& limits_;
     Report& report_;
     std::map<std::string, Found> materials_;

@@ -215,13 +215,12 @@ private:
 
 } // namespace
 
-Result read_off(const std::filesystem::path& path, const Limits& limits) {
-    const std::vector<std::byte> bytes = read_file(path, limits);
+Result read_off(const Asset& asset, const Limits& limits) {
     Result result;
     result.report.format = "OFF";
-    add_source(result.report, path.filename().string(), bytes);
-    PolygonSoup soup = OffReader(as_text(bytes), path, limits, result.report).read();
-    result.model = to_model(std::move(soup), path, limits, result.report);
+    add_source(result.report, asset);
+    PolygonSoup soup = OffReader(as_text(asset.file.bytes), asset.path, limits, result.report).read();
+    result.model = to_model(std::move(soup), asset.path, limits, result.report);
     return result;
 }
 

@@ -87,9 +87,9 @@ Vec4f read_color(const Row& row, const ColorProperties& color) {
 
 class PlyReader {
 public:
-    PlyReader(std::string_view text, const std::filesystem::path& path, const Limits& limits, Report& report)
-        : path_(path), limits_(limits), report_(report), header_(parse_ply_header(text, path)),
-          data_(text, header_, path) {}
+    PlyReader(std::string_view text, const Asset& asset, const Limits& limits, Report& report)
+        : asset_(asset), path_(asset.path), limits_(limits), report_(report),
+          header_(parse_ply_header(text, path_)), data_(text, header_, path_) {}
 
     PolygonSoup read() {
         check_elements();
@@ -314,17 +314,16 @@ private:
             Material material;
             material.name = name;
             const Reference reference = resolve_reference(path_, name, Encoding::file_name);
-            std::error_code code;
-            if (std::filesystem::exists(reference.path, code)) {
-                const std::vector<std::byte> bytes = read_file(reference.path, limits_);
-                add_source(report_, reference.name, bytes);
+            if (const auto content = read_reference(asset_, reference, limits_)) {
+                add_source(report_, reference.name, *content);
                 try {
-                    soup_.textures.push_back(read_texture(bytes, reference.name, limits_));
+                    soup_.textures.push_back(read_texture(content->bytes, reference.name, limits_));
                 } catch (const Error& error) {
                     throw Error(error.code(), path_.string() + ": texture " + error.what());
                 }
                 material.texture = std::uint32_t(soup_.textures.size() - 1);
             } else {
+                add_missing(report_, reference.name);
                 warn(report_, "The texture " + quote(name) + " is missing; the material goes without it.");
             }
             soup_.materials.push_back(std::move(material));
@@ -371,6 +370,7 @@ private:
         }
     }
 
+    const Asset& asset_;
     const std::filesystem::path& path_;
     const Limits& limits_;
     Report& report_;
@@ -385,13 +385,12 @@ private:
 
 } // namespace
 
-Result read_ply(const std::filesystem::path& path, const Limits& limits) {
-    const std::vector<std::byte> bytes = read_file(path, limits);
+Result read_ply(const Asset& asset, const Limits& limits) {
     Result result;
     result.report.format = "PLY";
-    add_source(result.report, path.filename().string(), bytes);
-    PolygonSoup soup = PlyReader(as_text(bytes), path, limits, result.report).read();
-    result.model = to_model(std::move(soup), path, limits, result.report);
+    add_source(result.report, asset);
+    PolygonSoup soup = PlyReader(as_text(asset.file.bytes), asset, limits, result.report).read();
+    result.model = to_model(std::move(soup), asset.path, limits, result.report);
     return result;
 }
 

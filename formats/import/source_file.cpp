@@ -2,32 +2,39 @@
 #include "source_file.h"
 
 #include "../../libspa/core/error.h"
+#include "open_file.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
-#include <system_error>
 
 #include <xxhash.h>
 
 namespace spa::import {
 namespace {
 
-struct FileCloser {
-    void operator()(std::FILE* file) const {
-        if (file != nullptr) (void)std::fclose(file);
-    }
-};
-
-[[noreturn]] void refuse(const std::filesystem::path& asset, std::string_view reference, const char* why) {
+[[noreturn]] void refuse(const std::filesystem::path& asset, std::string_view reference,
+                         const std::string& why) {
     std::string shown(reference.substr(0, 120));
     std::replace_if(
         shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
     throw Error(ExitCode::invalid_data, asset.string() + ": the reference '" + shown + "' " + why +
                                             "; references must stay inside the asset's folder");
+}
+
+// Both without symbolic links. Nothing is inside a folder that is not known.
+bool is_inside(const std::filesystem::path& path, const std::filesystem::path& folder) {
+    if (path.empty() || folder.empty()) return false;
+    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+FileContent read_content(const OpenFile& file, const std::filesystem::path& path, std::uint64_t most,
+                         const Limits& limits) {
+    const std::uint64_t size = std::min(most, file.state().size);
+    if (size > limits.file_bytes)
+        throw Error(ExitCode::input_output,
+                    path.string() + ": cannot be read: it has " + std::to_string(file.state().size) +
+                        " bytes, more than the limit of " + std::to_string(limits.file_bytes));
+    return {file.read(most), file.state()};
 }
 
 // A scheme is a letter and then letters, digits, '+', '-' or '.', up to a ':' (RFC 3986, 3.1). A drive
@@ -50,37 +57,28 @@ int hex_value(char c) {
 
 } // namespace
 
-std::vector<std::byte> read_file(const std::filesystem::path& path, const Limits& limits) {
-    const auto fail = [&](const std::string& why) {
-        throw Error(ExitCode::input_output, path.string() + ": cannot be read: " + why);
-    };
-    std::error_code code;
-    const std::filesystem::file_status status = std::filesystem::status(path, code);
-    if (!std::filesystem::exists(status)) fail("no such file; check the path");
-    if (!std::filesystem::is_regular_file(status)) fail("not a regular file");
-    const std::uintmax_t size = std::filesystem::file_size(path, code);
-    if (code) fail(code.message());
-    if (size > limits.file_bytes)
-        fail("it has " + std::to_string(size) + " bytes, more than the limit of " +
-             std::to_string(limits.file_bytes));
-
-    const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "rb"));
-    if (!file) fail(std::generic_category().message(errno));
-    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
-    if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
-        fail("it ended early or the read failed");
-    return bytes;
+FileContent read_file(const std::filesystem::path& path, const Limits& limits, std::uint64_t most) {
+    const std::optional<OpenFile> file = OpenFile::open(path);
+    if (!file)
+        throw Error(ExitCode::input_output, path.string() + ": cannot be read: no such file; check the path");
+    return read_content(*file, path, most, limits);
 }
 
-SourceFile describe_source(std::string name, std::span<const std::byte> bytes) {
-    return {std::move(name), bytes.size(), XXH3_64bits(bytes.data(), bytes.size())};
-}
-
-void add_source(Report& report, std::string name, std::span<const std::byte> bytes) {
+void add_source(Report& report, std::string name, const FileContent& file) {
     if (std::any_of(report.files.begin(), report.files.end(),
-                    [&](const SourceFile& file) { return file.name == name; }))
+                    [&](const SourceFile& known) { return known.name == name; }))
         return;
-    report.files.push_back(describe_source(std::move(name), bytes));
+    report.files.push_back(
+        {std::move(name), file.bytes.size(), XXH3_64bits(file.bytes.data(), file.bytes.size()), file.state});
+}
+
+void add_source(Report& report, const Asset& asset) {
+    add_source(report, asset.path.filename().string(), asset.file);
+}
+
+void add_missing(Report& report, const std::string& name) {
+    if (std::find(report.missing.begin(), report.missing.end(), name) == report.missing.end())
+        report.missing.push_back(name);
 }
 
 void add_warning(Report& report, std::string warning) {
@@ -137,6 +135,16 @@ Reference resolve_reference(const std::filesystem::path& asset, std::string_view
     for (const std::string& part : parts) result.name += (result.name.empty() ? "" : "/") + part;
     result.path = asset.parent_path() / result.name;
     return result;
+}
+
+std::optional<FileContent> read_reference(const Asset& asset, const Reference& reference,
+                                          const Limits& limits, std::uint64_t most) {
+    const std::optional<OpenFile> file = OpenFile::open(reference.path);
+    if (!file) return std::nullopt;
+    if (!limits.follow_links && !is_inside(file->real_path(), asset.real_folder))
+        refuse(asset.path, reference.name,
+               "is a symbolic link to another place, which only --follow-links allows");
+    return read_content(*file, reference.path, most, limits);
 }
 
 } // namespace spa::import

@@ -5,23 +5,42 @@
 #include "import.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
-#include <span>
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace spa::import {
 
-// The whole content of a file. Throws Error: input_output if it cannot be opened or read, is not a regular
-// file or is larger than limits.file_bytes.
-std::vector<std::byte> read_file(const std::filesystem::path& path, const Limits& limits);
+// A file as it was read.
+struct FileContent {
+    std::vector<std::byte> bytes;
+    FileState state;
+};
 
-// The record of a file of this content under this name.
-SourceFile describe_source(std::string name, std::span<const std::byte> bytes);
+inline constexpr std::uint64_t whole_file = std::numeric_limits<std::uint64_t>::max();
 
-// Appends the record unless one of the same name is already there.
-void add_source(Report& report, std::string name, std::span<const std::byte> bytes);
+// The content of a file, or its first `most` bytes. Throws Error: input_output if there is none, it cannot be
+// opened or read, is not a regular file, changes meanwhile or has more than limits.file_bytes to read.
+FileContent read_file(const std::filesystem::path& path, const Limits& limits,
+                      std::uint64_t most = whole_file);
+
+// The asset: the file that the user named.
+struct Asset {
+    std::filesystem::path path;
+    FileContent file;
+    std::filesystem::path real_folder; // of the path, symbolic links resolved; references stay inside
+};
+
+// Appends the record of a file unless one of the same name is already there.
+void add_source(Report& report, std::string name, const FileContent& file);
+void add_source(Report& report, const Asset& asset);
+
+// Appends the name unless it is already there.
+void add_missing(Report& report, const std::string& name);
 
 // Appends the warning unless the same text is already there. A report holds so many and then a line that says
 // that there are more: a damaged file can give one for each of its bytes.
@@ -40,9 +59,15 @@ enum class Encoding { uri, file_name };
 // Where a reference leads; '/' and '\' both separate. A '%' that starts no escape stands for itself. Throws
 // Error(invalid_data) for an empty reference, an absolute path, a path that climbs out of the folder with
 // "..", a drive letter, a URL and a control character. The message starts with `asset`, the path of the
-// file that holds the reference. Does not touch the file system; symbolic links are followed later.
+// file that holds the reference. Does not touch the file system.
 Reference resolve_reference(const std::filesystem::path& asset, std::string_view reference,
                             Encoding encoding);
+
+// The content of the file that a reference leads to, or its first `most` bytes; nothing if there is no such
+// file. Throws Error: invalid_data if symbolic links lead out of the asset's folder and limits.follow_links
+// is not set, input_output as read_file does.
+std::optional<FileContent> read_reference(const Asset& asset, const Reference& reference,
+                                          const Limits& limits, std::uint64_t most = whole_file);
 
 // %41 becomes 'A'; a '%' that starts no escape stands for itself.
 std::string percent_decode(std::string_view text);

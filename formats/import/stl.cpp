@@ -144,31 +144,31 @@ void weld(PolygonSoup& soup) {
 
 } // namespace
 
-Result read_stl(const std::filesystem::path& path, const Limits& limits) {
-    const std::vector<std::byte> bytes = read_file(path, limits);
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+Result read_stl(const Asset& asset, const Limits& limits) {
+    const std::string_view text(reinterpret_cast<const char*>(asset.file.bytes.data()),
+                                asset.file.bytes.size());
     Result result;
     result.report.format = "STL";
-    add_source(result.report, path.filename().string(), bytes);
+    add_source(result.report, asset);
     PolygonSoup soup;
     soup.materials.emplace_back();
     soup.materials[0].name = "default";
-    const std::string_view words = as_text(bytes).substr(0, 512);
+    const std::string_view words = as_text(asset.file.bytes).substr(0, 512);
     if (binary_size(text) == text.size() && text.size() >= header_size) {
-        read_binary(text, soup, path, limits);
+        read_binary(text, soup, asset.path, limits);
     } else if (equal_ignoring_case(trim(words).substr(0, 5), "solid")) {
-        AsciiReader(as_text(bytes), path, limits).read(soup);
+        AsciiReader(as_text(asset.file.bytes), asset.path, limits).read(soup);
     } else if (text.size() < header_size) {
-        fail(path,
+        fail(asset.path,
              "neither ASCII STL (it does not begin with 'solid') nor binary (it is shorter than the header "
              "of 84 bytes)");
     } else {
-        fail(path, "damaged binary STL: its header declares " + std::to_string(load_u32(text, 80)) +
-                       " triangles, which take " + std::to_string(binary_size(text)) +
-                       " bytes, but the file has " + std::to_string(text.size()));
+        fail(asset.path, "damaged binary STL: its header declares " + std::to_string(load_u32(text, 80)) +
+                             " triangles, which take " + std::to_string(binary_size(text)) +
+                             " bytes, but the file has " + std::to_string(text.size()));
     }
     weld(soup);
-    result.model = to_model(std::move(soup), path, limits, result.report);
+    result.model = to_model(std::move(soup), asset.path, limits, result.report);
     return result;
 }
 

@@ -98,7 +98,7 @@ std::vector<std::filesystem::path> small_files(const std::vector<std::string>& e
 }
 
 std::string content(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = import::read_file(path, {});
+    const std::vector<std::byte> bytes = import::read_file(path, {}).bytes;
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 

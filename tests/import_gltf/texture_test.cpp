@@ -18,7 +18,7 @@ namespace {
 using Pixel = std::array<std::uint8_t, 4>;
 
 Texture read(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = import::read_file(path, {});
+    const std::vector<std::byte> bytes = import::read_file(path, {}).bytes;
     return import::read_texture(bytes, path.filename().string(), {});
 }
 
@@ -65,7 +65,7 @@ TEST(Texture, JpegKinds) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         SCOPED_TRACE(entry.path());
         const Texture texture = read(entry.path());
-        const auto bytes = import::read_file(entry.path(), {});
+        const auto bytes = import::read_file(entry.path(), {}).bytes;
         const import::ImageHeader header = import::read_image_header(bytes);
         EXPECT_EQ(texture.mips[0].width, header.width);
         EXPECT_EQ(texture.mips[0].height, header.height);
@@ -143,7 +143,7 @@ TEST(Texture, DamagedPicturesAreNamedOrDecoded) {
     for (const char* kind : {"png", "jpeg"}) {
         for (const auto& entry : std::filesystem::directory_iterator(assets() / "malformed" / kind)) {
             SCOPED_TRACE(entry.path());
-            const std::vector<std::byte> bytes = import::read_file(entry.path(), {});
+            const std::vector<std::byte> bytes = import::read_file(entry.path(), {}).bytes;
             const std::string message =
                 scratch.refusal("a.glb", bytes.empty() ? quad_with({std::byte{0}}) : quad_with(bytes));
             const bool refused =

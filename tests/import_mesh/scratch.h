@@ -28,6 +28,9 @@ public:
     // none.
     std::string refusal(const std::string& name, std::string_view content) const;
 
+    // The path of a file in the folder.
+    [[nodiscard]] std::filesystem::path path(const std::string& name) const { return folder_.file(name); }
+
 private:
     TemporaryFolder folder_;
 };

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake_file.h"
+
+#include "inspect_report.h"
+#include "interrupt.h"
+#include "map_file.h"
+#include "output.h"
+#include "progress.h"
+
+#include "../formats/container/writer.h"
+
+#include <tbb/global_control.h>
+
+#include <chrono>
+
+namespace spa::tools {
+
+namespace {
+
+// The bakers keep to the number of threads themselves; the reader does not know it.
+class ThreadLimit {
+public:
+    explicit ThreadLimit(unsigned threads) {
+        if (threads > 0) control_.emplace(tbb::global_control::max_allowed_parallelism, threads);
+    }
+
+private:
+    std::optional<tbb::global_control> control_;
+};
+
+// The output must not replace what the model was made from: the asset or a file that it refers to.
+void check_inputs(const BakeArguments& arguments, const import::Report& source) {
+    std::vector<std::filesystem::path> inputs{arguments.input};
+    for (const import::SourceFile& file : source.files)
+        inputs.push_back(arguments.input.parent_path() / file.name);
+    check_output_file(arguments.output, inputs,
+                      arguments.make_folders ? OutputFolder::is_made : OutputFolder::is_there);
+}
+
+spa::import::Result read_asset(const BakeArguments& arguments) {
+    const SlowStep step("reading " + arguments.input.filename().string(), arguments.quiet);
+    spa::import::Limits limits;
+    limits.follow_links = arguments.follow_links;
+    return spa::import::read_model(arguments.input, limits);
+}
+
+bake::Result bake_with_progress(const BakeArguments& arguments, const Model& model) {
+    ProgressReport progress("baking " + arguments.input.filename().string(), arguments.quiet);
+    try {
+        return bake::bake_model(model, arguments.settings.options, [&progress](double share) {
+            progress.update(share);
+            return interrupt_signal() == 0;
+        });
+    } catch (const Error& error) {
+        // The baker knows a model, not the file that it came from.
+        if (error.code() != ExitCode::invalid_data) throw;
+        throw Error(error.code(), arguments.input.string() + ": " + error.what());
+    }
+}
+
+measure::Measurement measure_with_progress(const BakeArguments& arguments, const Model& model,
+                                           const Part& part) {
+    ProgressReport progress("measuring " + arguments.output.filename().string(), arguments.quiet);
+    measure::MeasureOptions options;
+    options.color_samples = arguments.settings.options.samples;
+    options.layers = arguments.settings.options.layers;
+    options.threads = arguments.settings.options.threads;
+    options.rays = measure::RayOptions{}.rays;
+    return measure::measure_map(model, part, options, [&progress](double share) {
+        progress.update(share);
+        return interrupt_signal() == 0;
+    });
+}
+
+std::vector<std::byte> encode(const SphericalMap& map, const BakeArguments& arguments) {
+    const SlowStep step("writing " + arguments.output.filename().string(), arguments.quiet);
+    container::WriteOptions options;
+    options.compression =
+        arguments.settings.compress ? container::Compression::zstd : container::Compression::none;
+    std::vector<std::byte> bytes;
+    require(container::write(map, options, bytes), arguments.output.string());
+    return bytes;
+}
+
+nlohmann::ordered_json output_json(const BakeArguments& arguments, const std::vector<std::byte>& bytes) {
+    container::File file;
+    require(container::open(bytes, file, {container::no_limits, container::CheckDepth::structure, false}),
+            arguments.output.string());
+    return {{"path", arguments.output.string()},
+            {"bytes", bytes.size()},
+            {"sections", sections_json(file.sections())}};
+}
+
+} // namespace
+
+BakeFacts BakedFile::facts(const BakeArguments& arguments) const {
+    return {arguments, source, report, measurement ? &*measurement : nullptr};
+}
+
+BakedFile bake_file(const BakeArguments& arguments) {
+    const auto start = std::chrono::steady_clock::now();
+    const ThreadLimit threads(arguments.settings.options.threads);
+    check_inputs(arguments, {});
+    BakedFile baked;
+    baked.source = read_asset(arguments);
+    check_inputs(arguments, baked.source.report);
+
+    const InterruptGuard guard;
+    bake::Result result = bake_with_progress(arguments, baked.source.model);
+    baked.report = std::move(result.report);
+    SphericalMap& map = result.map.map;
+    if (arguments.settings.measure) {
+        baked.measurement = measure_with_progress(arguments, baked.source.model, map.parts.front());
+        map.parts.front().errors = measure::error_figures(*baked.measurement);
+    }
+    map.metadata = metadata(baked.facts(arguments));
+    const std::vector<std::byte> bytes = encode(map, arguments);
+    InterruptGuard::check();
+    if (arguments.make_folders) make_folders_of(arguments.output);
+    StagedFile file(arguments.output);
+    file.write(bytes);
+    InterruptGuard::check();
+    file.commit();
+    baked.bytes = bytes.size();
+    baked.output = output_json(arguments, bytes);
+    baked.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return baked;
+}
+
+} // namespace spa::tools

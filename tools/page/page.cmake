@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+# The page of `spa batch` as a header: batch.html with its style and script in their places and their hashes in
+# the page's Content-Security-Policy, which lets nothing else run.
+
+# spa_base64_sha256(TEXT OUT): as Content-Security-Policy writes it.
+function(spa_base64_sha256 text out)
+  string(SHA256 hex "${text}")
+  set(alphabet ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/)
+  set(result "")
+  # Ten times 24 bits, then the last 16 with 2 zeros.
+  foreach(at RANGE 0 60 6)
+    if(at EQUAL 60)
+      string(SUBSTRING ${hex} 60 4 digits)
+      math(EXPR bits "0x${digits} << 2")
+      set(shifts 12 6 0)
+    else()
+      string(SUBSTRING ${hex} ${at} 6 digits)
+      math(EXPR bits "0x${digits}")
+      set(shifts 18 12 6 0)
+    endif()
+    foreach(shift IN LISTS shifts)
+      math(EXPR letter "(${bits} >> ${shift}) & 63")
+      string(SUBSTRING ${alphabet} ${letter} 1 letter)
+      string(APPEND result ${letter})
+    endforeach()
+  endforeach()
+  set(${out} "${result}=" PARENT_SCOPE)
+endfunction()
+
+set(page_sources ${CMAKE_CURRENT_LIST_DIR})
+file(READ ${page_sources}/batch.html BATCH_PAGE)
+file(READ ${page_sources}/batch.css BATCH_STYLE)
+file(READ ${page_sources}/batch.js BATCH_SCRIPT)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page_sources}/batch.html ${page_sources}/batch.css
+  ${page_sources}/batch.js)
+spa_base64_sha256("${BATCH_STYLE}" BATCH_STYLE_HASH)
+spa_base64_sha256("${BATCH_SCRIPT}" BATCH_SCRIPT_HASH)
+foreach(name STYLE_HASH SCRIPT_HASH STYLE SCRIPT)
+  string(REPLACE "@BATCH_${name}@" "${BATCH_${name}}" BATCH_PAGE "${BATCH_PAGE}")
+endforeach()
+string(FIND "${BATCH_PAGE}" "@BATCH_DATA@" data)
+string(SUBSTRING "${BATCH_PAGE}" 0 ${data} BATCH_PAGE_BEGIN)
+string(LENGTH "@BATCH_DATA@" length)
+math(EXPR data "${data} + ${length}")
+string(SUBSTRING "${BATCH_PAGE}" ${data} -1 BATCH_PAGE_END)
+configure_file(${page_sources}/batch_page_text.h.in ${CMAKE_CURRENT_BINARY_DIR}/page/batch_page_text.h @ONLY)
