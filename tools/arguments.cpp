@@ -6,6 +6,10 @@
 
 namespace spa::tools {
 
+namespace {
+constexpr std::uint32_t max_threads = 1024;
+} // namespace
+
 CLI::Option* add_text(CLI::App& app, const std::string& names, const std::string& value_name,
                       const std::string& description, const std::function<void(const std::string&)>& set) {
     return app.add_option_function<std::string>(names, set, description)->type_name(value_name);
@@ -46,6 +50,20 @@ CLI::Option* add_report_format(CLI::App& app, ReportFormat& format) {
                                     "Report on standard output as text for people or as JSON",
                                     [&format](ReportFormat given) { format = given; })
         ->default_str("text");
+}
+
+void add_threads(CLI::App& app, const std::string& description, unsigned& threads) {
+    add_text(
+        app, "--threads", "T", description + ". The bytes written do not depend on it",
+        [&threads](const std::string& text) { threads = parse_number("--threads", text, 0, max_threads); })
+        ->default_str(std::to_string(threads));
+}
+
+void add_follow_links(CLI::App& app, bool& follow_links) {
+    app.add_flag(
+        "--follow-links", follow_links,
+        "Let an asset refer, through symbolic links, to files outside its folder. Not for assets that "
+        "come from strangers");
 }
 
 std::string json_text(const nlohmann::ordered_json& json) {

@@ -54,6 +54,12 @@ enum class ReportFormat : std::uint8_t { text, json };
 const char* name(ReportFormat format);
 CLI::Option* add_report_format(CLI::App& app, ReportFormat& format);
 
+// description: of the value 0 too. threads: its value is the default.
+void add_threads(CLI::App& app, const std::string& description, unsigned& threads);
+
+// Limits::follow_links (import.h) as an option.
+void add_follow_links(CLI::App& app, bool& follow_links);
+
 // As every verb prints it: indented by two spaces, ends with a newline. Text that is not UTF-8, such as a
 // file name may be, gets replacement characters.
 std::string json_text(const nlohmann::ordered_json& json);

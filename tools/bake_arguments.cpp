@@ -5,24 +5,6 @@
 
 namespace spa::tools {
 
-namespace {
-constexpr std::uint32_t max_threads = 1024;
-} // namespace
-
-void add_threads(CLI::App& app, const std::string& description, unsigned& threads) {
-    add_text(
-        app, "--threads", "T", description + ". The bytes written do not depend on it",
-        [&threads](const std::string& text) { threads = parse_number("--threads", text, 0, max_threads); })
-        ->default_str(std::to_string(threads));
-}
-
-void add_follow_links(CLI::App& app, bool& follow_links) {
-    app.add_flag(
-        "--follow-links", follow_links,
-        "Let an asset refer, through symbolic links, to files outside its folder. Not for assets that "
-        "come from strangers");
-}
-
 std::function<BakeArguments()> define_bake_arguments(CLI::App& app) {
     const auto arguments = std::make_shared<BakeArguments>();
     const auto threads = std::make_shared<unsigned>(0);

@@ -6,7 +6,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <string>
 
 namespace spa::tools {
 
@@ -22,11 +21,5 @@ struct BakeArguments {
 // Adds the options to the parser. The function returned is called after parsing and fills in what was not
 // given. It throws Error{usage} where arguments contradict each other.
 std::function<BakeArguments()> define_bake_arguments(CLI::App& app);
-
-// description: of the value 0 too. threads: its value is the default.
-void add_threads(CLI::App& app, const std::string& description, unsigned& threads);
-
-// Limits::follow_links (import.h) as an option.
-void add_follow_links(CLI::App& app, bool& follow_links);
 
 } // namespace spa::tools

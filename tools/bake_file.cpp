@@ -39,9 +39,7 @@ void check_inputs(const BakeArguments& arguments, const import::Report& source) 
 
 spa::import::Result read_asset(const BakeArguments& arguments) {
     const SlowStep step("reading " + arguments.input.filename().string(), arguments.quiet);
-    spa::import::Limits limits;
-    limits.follow_links = arguments.follow_links;
-    return spa::import::read_model(arguments.input, limits);
+    return spa::import::read_model(arguments.input, {.follow_links = arguments.follow_links});
 }
 
 bake::Result bake_with_progress(const BakeArguments& arguments, const Model& model) {

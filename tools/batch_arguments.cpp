@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "batch_arguments.h"
 
-#include "bake_arguments.h"
 #include "memory_budget.h"
 
 #include <algorithm>

@@ -17,6 +17,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_failures_listed = 20;
 
+// What is not known is 0 in a result.
+template <class T>
+Json number_or_null(T value) {
+    return value == T{} ? Json(nullptr) : Json(value);
+}
+
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json asset_json(const BatchReport& report, std::size_t i) {
@@ -29,16 +35,17 @@ Json asset_json(const BatchReport& report, std::size_t i) {
         {"output", asset.output.string()},
         {"status", name(result.status)},
         {"reason", text_or_null(name(result.reason))},
-        {"exit_code", int(result.exit_code)},
+        {"exit_code",
+         result.status == AssetStatus::not_started ? Json(nullptr) : Json(int(result.exit_code))},
         {"signal", result.signal == 0 ? Json(nullptr) : Json(signal_name(result.signal))},
         {"error", text_or_null(result.error)},
         {"diagnostics", result.diagnostics},
         {"warnings", result.warnings},
-        {"seconds", result.seconds},
-        {"peak_memory_bytes", result.peak_memory_bytes},
-        {"source_bytes", result.facts.source_bytes},
-        {"triangles", result.facts.triangles},
-        {"output_bytes", result.facts.bytes},
+        {"seconds", number_or_null(result.seconds)},
+        {"peak_memory_bytes", number_or_null(result.peak_memory_bytes)},
+        {"source_bytes", number_or_null(result.facts.source_bytes)},
+        {"triangles", number_or_null(result.facts.triangles)},
+        {"output_bytes", number_or_null(result.facts.bytes)},
         {"size", size_text(options.grid)},
         {"layers", options.layers},
         {"figures", result.facts.figures.empty() ? Json(nullptr) : Json::parse(result.facts.figures)},

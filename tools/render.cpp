@@ -70,7 +70,7 @@ render::GpuOptions gpu_options(const RenderArguments& arguments) {
 
 spa::import::SceneResult read_scene(const RenderArguments& arguments) {
     const SlowStep step("reading " + arguments.scene.filename().string(), arguments.quiet);
-    return import::read_scene(arguments.scene);
+    return spa::import::read_scene(arguments.scene, {.follow_links = arguments.follow_links});
 }
 
 void note(const std::string& text) { std::cerr << "spa: note: " << text << '\n'; }

@@ -268,6 +268,7 @@ std::function<RenderArguments()> define_render_arguments(CLI::App& app) {
         },
         "List the devices, and what they lack to trace rays, and do nothing else");
     add_report_format(app, arguments.format);
+    add_follow_links(app, arguments.follow_links);
     app.add_flag("-q,--quiet", arguments.quiet, "No progress on standard error");
     return [given] {
         if (given->arguments.list_devices) return given->arguments;

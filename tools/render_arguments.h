@@ -51,6 +51,7 @@ struct RenderArguments {
     std::string device;
     bool list_devices = false;
     ReportFormat format = ReportFormat::text;
+    bool follow_links = false;
     bool quiet = false;
 
     [[nodiscard]] bool writes_exr() const;

@@ -44,6 +44,7 @@ LIST
     test)
         # The last three: Vulkan and Direct3D. The device is Mesa's software one, which traces rays since 24.1.
         cat <<'LIST'
+chromium
 gnuplot-nox
 libgtest-dev
 nodejs:node

@@ -103,11 +103,13 @@ private:
 std::vector<trace::Ray> camera_rays(const Camera& camera, std::uint32_t size) {
     std::vector<trace::Ray> rays;
     rays.reserve(std::size_t(size) * size * samples * samples);
+    const auto place = [size](std::uint32_t pixel, std::uint32_t sample) {
+        return (pixel + (sample + 0.5) / samples) / size;
+    };
     for (std::uint32_t y = 0; y < size; ++y)
         for (std::uint32_t x = 0; x < size; ++x)
             for (std::uint32_t s = 0; s < samples * samples; ++s)
-                rays.push_back(camera.ray((x + (s % samples + 0.5) / samples) / size,
-                                          (y + (s / samples + 0.5) / samples) / size));
+                rays.push_back(camera.ray(place(x, s % samples), place(y, s / samples)));
     return rays;
 }
 

@@ -20,7 +20,8 @@ inline constexpr Rgb thumbnail_background{0x6b, 0x72, 0x7c};
 // without any surface: the background alone.
 //
 // The map must have passed the container's checks. Same map and size, same picture. One thread; O(samples +
-// size^2), about 5 ms for 96 pixels of a 256-cell map. size: of a side, >= 1.
+// size^2): of a 256-cell map about 20 ms and 6 KiB as PNG for 96 pixels, 8 ms and 3 KiB for 64.
+// size: of a side, >= 1.
 Picture thumbnail(const SphericalMap& map, std::uint32_t size);
 
 } // namespace spa::tools

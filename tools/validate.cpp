@@ -64,6 +64,7 @@ struct Arguments {
     std::array<std::optional<double>, thresholds.size()> limits;
     std::uint32_t rays = 0;
     std::optional<ReportFormat> format;
+    bool follow_links = false;
     bool quiet = false;
 
     [[nodiscard]] bool needs_source() const {
@@ -104,7 +105,7 @@ const nlohmann::ordered_json& bake_option(const nlohmann::ordered_json& metadata
 spa::import::Result read_source(const Arguments& arguments, const MapFile& file,
                                 const std::filesystem::path& path) {
     try {
-        return import::read_model(path);
+        return spa::import::read_model(path, {.follow_links = arguments.follow_links});
     } catch (const Error& error) {
         if (!arguments.source.empty()) throw;
         throw Error(error.code(), std::string(error.what()) + " (the container " + file.name +
@@ -266,6 +267,7 @@ Verb validate_verb() {
             add_choice<ReportFormat>(app, "--format", {ReportFormat::text, ReportFormat::json},
                                      "Report on standard output as text for people or as JSON",
                                      [arguments](ReportFormat given) { arguments->format = given; });
+            add_follow_links(app, arguments->follow_links);
             app.add_flag("-q,--quiet", arguments->quiet, "No progress on standard error");
             return [arguments] {
                 arguments->quiet = arguments->quiet || !stderr_is_terminal();

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 
 namespace spa::test {
 namespace {
@@ -73,13 +75,16 @@ double differing(const Picture& a, const Picture& b, int codes) {
     return double(count) / double(a.pixels.size());
 }
 
-class ThumbnailOf : public testing::TestWithParam<Grid> {};
+class ThumbnailOf : public testing::TestWithParam<const char*> {
+protected:
+    static Grid grid() { return std::string(GetParam()) == "latlong" ? latlong : octahedral; }
+};
 
-INSTANTIATE_TEST_SUITE_P(Mappings, ThumbnailOf, testing::Values(octahedral, latlong),
-                         [](const auto& info) { return std::string(name(info.param.mapping)); });
+INSTANTIATE_TEST_SUITE_P(Mappings, ThumbnailOf, testing::Values("octahedral", "latlong"),
+                         [](const auto& info) { return std::string(info.param); });
 
 TEST_P(ThumbnailOf, SphereFillsACircleAndIsLitFromTheUpperLeft) {
-    FunctionMap map = sphere(GetParam(), {1, 1, 1});
+    FunctionMap map = sphere(grid(), {1, 1, 1});
     const Picture picture = picture_of(map.part());
     const double radius = size / 2.0 / 1.06; // of the circle; a twentieth of the width is left free
     const double area = std::numbers::pi * radius * radius;
@@ -100,7 +105,7 @@ TEST_P(ThumbnailOf, SphereFillsACircleAndIsLitFromTheUpperLeft) {
 }
 
 TEST_P(ThumbnailOf, CubeShowsFrontLeftRightSideRightAndTopAbove) {
-    FunctionMap map = cube(GetParam());
+    FunctionMap map = cube(grid());
     const Picture picture = picture_of(map.part());
     const auto looks = [&](double x, double y, std::size_t channel) {
         const Rgb c = picture.at(std::uint32_t(x * size), std::uint32_t(y * size));
@@ -119,7 +124,7 @@ TEST_P(ThumbnailOf, TorusHasAHoleWithTwoLayers) {
     Model model = empty_model();
     add_torus(model, 1, 0.25F, 64);
     bake::Options options;
-    options.grid = options.color_grid = GetParam();
+    options.grid = options.color_grid = grid();
     for (const std::uint32_t layers : {1U, 2U}) {
         options.layers = layers;
         const bake::Result result = bake::bake_model(model, options);
