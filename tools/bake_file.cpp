@@ -9,6 +9,7 @@
 
 #include "../formats/container/writer.h"
 
+#include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
 #include <chrono>

@@ -4,6 +4,8 @@
 
 #include "bake_report.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cstdint>
 #include <optional>
 
