@@ -136,8 +136,8 @@ std::string batch_text(const BatchReport& report) {
         if (++listed > most_failures_listed)
             ++unlisted;
         else
-            text += "  failed  " + one_line(report.assets[i].name) + ": exit " +
-                    std::to_string(int(result.exit_code)) + ": " + one_line(result.error) + "\n";
+            text += "  failed  exit " + std::to_string(int(result.exit_code)) + ": " +
+                    one_line(result.error) + "\n";
     }
     if (unlisted > 0)
         text += "  and " + std::to_string(unlisted) + " more that failed; --report names them\n";

@@ -147,7 +147,7 @@ private:
         ChildOutcome outcome = parse_outcome(end.result);
         const bool was_stopped = !end.completed || outcome.interrupted;
         if (was_stopped && report_.stopped_by == BatchStop::signal) return; // not_started
-        if (was_stopped) describe_end(end, outcome.result);
+        if (was_stopped) describe_end(end, start.task.asset, outcome.result);
         if (may_want_memory(end, outcome) && start.memory_bytes < arguments_.memory_bytes) {
             start.memory_bytes = arguments_.memory_bytes; // with all of it, and so alone
             ready_.push_front(std::move(start));
@@ -170,7 +170,8 @@ private:
     }
 
     // What is to be said of a process that ended by a signal.
-    void describe_end(const WorkerEnd& end, AssetResult& result) const {
+    void describe_end(const WorkerEnd& end, const BatchAsset& asset, AssetResult& result) const {
+        result.error = asset.path.string() + ": ";
         result.status = AssetStatus::failed;
         result.signal = end.signal;
         if (end.timed_out) {
@@ -183,8 +184,8 @@ private:
                 "was killed (SIGKILL), as the system does when it is out of memory; lower --memory or --jobs";
         } else {
             result.exit_code = ExitCode::internal;
-            result.error = end.signal == 0 ? "its process ended without a result"
-                                           : "crashed (" + signal_name(end.signal) + ")";
+            result.error += end.signal == 0 ? "its process ended without a result"
+                                            : "crashed (" + signal_name(end.signal) + ")";
         }
     }
 

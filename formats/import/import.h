@@ -15,6 +15,8 @@ namespace spa::import {
 
 struct Limits {
     std::uint64_t file_bytes = 4ULL << 30;     // of any one file read
+    std::uint64_t total_bytes = 8ULL << 30;    // of all files read, each as often as it is
+    std::uint64_t model_bytes = 8ULL << 30;    // of the model in memory, textures with all mips included
     std::uint64_t vertices = 1ULL << 28;       // in the flattened model
     std::uint64_t triangles = 1ULL << 28;      // in the flattened model
     std::uint64_t texture_pixels = 1ULL << 28; // of one image
