@@ -32,7 +32,9 @@ void write_reports(const BatchReport& report, const PictureStore* pictures) {
     for (const std::filesystem::path& path : report.arguments.reports) {
         std::ostringstream text;
         if (is_page(path))
-            write_batch_page(text, json, [&](std::size_t asset) { return pictures->get(asset); });
+            write_batch_page(text, json, [&](std::size_t asset) {
+                return pictures == nullptr ? std::vector<std::byte>() : pictures->get(asset);
+            });
         else
             text << json_text(json);
         write_text(path, text.str());
