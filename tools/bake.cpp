@@ -5,6 +5,8 @@
 #include "output.h"
 #include "verb.h"
 
+#include <nlohmann/json.hpp>
+
 #include <iostream>
 
 namespace spa::tools {

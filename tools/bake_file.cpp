@@ -8,6 +8,7 @@
 
 #include "../formats/container/writer.h"
 
+#include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
 #include <chrono>

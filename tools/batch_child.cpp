@@ -11,6 +11,8 @@
 
 #include "../libspa/bake/crossings.h"
 
+#include <nlohmann/json.hpp>
+
 #include <limits>
 #include <new>
 #include <span>

@@ -4,6 +4,9 @@
 #include "glob.h"
 #include "near_names.h"
 
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <fstream>
 #include <iterator>

@@ -5,6 +5,8 @@
 
 #include "../formats/container/text.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <csignal>
 #include <utility>

@@ -6,7 +6,7 @@
 #include "batch_assets.h"
 #include "up_to_date.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <array>
 #include <cstdint>

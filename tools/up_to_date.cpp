@@ -7,6 +7,8 @@
 #include "../formats/container/checksum.h"
 #include "../formats/container/reader.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
