@@ -55,8 +55,7 @@ void BatchProgress::done(const BatchAsset& asset, const AssetResult& result, std
     const bool failed = result.status == AssetStatus::failed;
     if (failed) ++failed_;
     if (quiet_) return;
-    // What went wrong begins with the path.
-    const std::string line = (failed ? "" : one_line(asset.name) + ": ") + outcome_text(result) + "\n";
+    const std::string line = one_line(asset.name) + ": " + outcome_text(result) + "\n";
     if (!terminal_)
         std::cerr << "spa: [" << done_ << "/" << assets_ << "] " << line;
     else if (failed)

@@ -147,9 +147,10 @@ std::string batch_text(const BatchReport& report) {
         read += result.facts.source_bytes;
         written += result.facts.bytes;
     }
-    if (!report.arguments.dry_run)
-        text += "  " + fixed(report.seconds, 2) + " s, " + byte_count(read) + " of sources into " +
-                byte_count(written) + " of maps\n";
+    if (report.arguments.dry_run) return text;
+    text += "  " + fixed(report.seconds, 2) + " s";
+    if (written > 0) text += ", " + byte_count(read) + " of sources into " + byte_count(written) + " of maps";
+    text += "\n";
     return text;
 }
 
