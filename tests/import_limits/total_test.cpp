@@ -7,6 +7,7 @@
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <gtest/gtest.h>
+#include <meshoptimizer.h>
 
 namespace spa::test {
 namespace {
@@ -107,10 +108,18 @@ TEST(Totals, BytesOfAModel) {
 }
 
 TEST(Totals, CompressedViews) {
+    // Positions in rows of 252 bytes: more than the model takes.
+    const std::vector<unsigned char> rows(4 * 252);
+    std::vector<unsigned char> encoded(meshopt_encodeVertexBufferBound(4, 252));
+    encoded.resize(meshopt_encodeVertexBuffer(encoded.data(), encoded.size(), rows.data(), 4, 252));
+    GltfBuilder builder = meshopt_quad(true);
+    compress(builder, 0, encoded, 4, 252, "ATTRIBUTES");
+    builder.json["bufferViews"][0]["byteStride"] = 252;
     const Scratch scratch;
-    const fs::path path = scratch.write("a.glb", with_fallback_buffer(meshopt_quad(true)).glb());
-    EXPECT_SAYS(outcome(path, {.model_bytes = 71}), "limit of 71 bytes");
-    EXPECT_SAYS(outcome(path, {.model_bytes = 1000}), "2 triangles");
+    const fs::path path = scratch.write("a.glb", with_fallback_buffer(builder).glb());
+    EXPECT_SAYS(outcome(path, {.model_bytes = 1031}), // 4 * 252 + 6 * 4
+                "the compressed buffer views take more than the limit of 1031 bytes");
+    EXPECT_SAYS(outcome(path, {.model_bytes = 1032}), "2 triangles have no area");
 }
 
 // Accessors that share their data are not all looked at: the file would be read again for each of them.
