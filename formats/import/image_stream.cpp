@@ -36,7 +36,7 @@ struct Segment {
     std::size_t begin = 0, end = 0;
 };
 
-constexpr unsigned start_of_image = 0xD8, end_of_image = 0xD9, start_of_scan = 0xDA, comment = 0xFE;
+constexpr unsigned end_of_image = 0xD9, start_of_scan = 0xDA, comment = 0xFE;
 
 bool has_length(unsigned marker) { return marker != 0x01 && !(marker >= 0xD0 && marker <= end_of_image); }
 
