@@ -65,6 +65,7 @@ clang-format
 clang-tidy
 jq
 libclang-rt-14-dev
+lld
 munge
 shellcheck
 slurm-client
