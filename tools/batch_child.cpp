@@ -3,6 +3,7 @@
 
 #include "bake_file.h"
 #include "failure.h"
+#include "interrupt.h"
 #include "map_file.h"
 #include "output.h"
 #include "picture.h"
@@ -84,7 +85,7 @@ std::string run_child(const ChildTask& task) {
     try {
         if (!task.is_current) judge_and_bake(task, result);
     } catch (const bake::Cancelled&) {
-        outcome.interrupted = true;
+        outcome.interrupt = interrupt_signal();
     } catch (const OutputError& error) {
         outcome.output_failed = error.concerns_all();
         fail(result);
@@ -107,7 +108,7 @@ std::string run_child(const ChildTask& task) {
         {"triangles", result.facts.triangles},
         {"bytes", result.facts.bytes},
         {"figures", result.facts.figures},
-        {"interrupted", outcome.interrupted},
+        {"interrupt", outcome.interrupt},
         {"out_of_memory", outcome.out_of_memory},
         {"output_failed", outcome.output_failed},
     };
@@ -133,7 +134,7 @@ ChildOutcome parse_outcome(const std::string& bytes) {
         json.at("triangles").get_to(result.facts.triangles);
         json.at("bytes").get_to(result.facts.bytes);
         json.at("figures").get_to(result.facts.figures);
-        json.at("interrupted").get_to(outcome.interrupted);
+        json.at("interrupt").get_to(outcome.interrupt);
         json.at("out_of_memory").get_to(outcome.out_of_memory);
         json.at("output_failed").get_to(outcome.output_failed);
         const auto picture = std::as_bytes(std::span(bytes).subspan(begin + length));
