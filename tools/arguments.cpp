@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "arguments.h"
 
+#include <CLI/App.hpp>
+#include <nlohmann/json.hpp>
+
 #include <charconv>
 #include <cmath>
 

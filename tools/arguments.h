@@ -5,8 +5,7 @@
 
 #include "../libspa/core/error.h"
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +13,11 @@
 #include <initializer_list>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+class Option;
+} // namespace CLI
 
 namespace spa::tools {
 

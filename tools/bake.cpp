@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake_file.h"
+#include "inspect_report.h"
+#include "map_file.h"
 #include "output.h"
 #include "verb.h"
+
+#include <nlohmann/json.hpp>
 
 #include <iostream>
 
@@ -9,12 +13,22 @@ namespace spa::tools {
 
 namespace {
 
+nlohmann::ordered_json output_json(const BakeArguments& arguments, const std::vector<std::byte>& bytes) {
+    container::File file;
+    require(container::open(bytes, file, {container::no_limits, container::CheckDepth::structure, false}),
+            arguments.output.string());
+    return {{"path", arguments.output.string()},
+            {"bytes", bytes.size()},
+            {"sections", sections_json(file.sections())}};
+}
+
 void bake_asset(const BakeArguments& arguments) {
     const BakedFile baked = bake_file(arguments);
     const BakeFacts facts = baked.facts(arguments);
     for (const std::string& warning : warnings(facts)) std::cerr << "spa: warning: " << warning << '\n';
-    print(arguments.format == ReportFormat::json ? json_text(report_json(facts, baked.output, baked.seconds))
-                                                 : report_text(facts, baked.bytes, baked.seconds));
+    print(arguments.format == ReportFormat::json
+              ? json_text(report_json(facts, output_json(arguments, baked.bytes), baked.seconds))
+              : report_text(facts, baked.bytes.size(), baked.seconds));
 }
 
 } // namespace

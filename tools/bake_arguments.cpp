@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake_arguments.h"
 
+#include <CLI/App.hpp>
+
 #include <memory>
 
 namespace spa::tools {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake_file.h"
 
-#include "inspect_report.h"
 #include "interrupt.h"
 #include "map_file.h"
 #include "output.h"
@@ -9,6 +8,7 @@
 
 #include "../formats/container/writer.h"
 
+#include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
 #include <chrono>
@@ -80,15 +80,6 @@ std::vector<std::byte> encode(const SphericalMap& map, const BakeArguments& argu
     return bytes;
 }
 
-nlohmann::ordered_json output_json(const BakeArguments& arguments, const std::vector<std::byte>& bytes) {
-    container::File file;
-    require(container::open(bytes, file, {container::no_limits, container::CheckDepth::structure, false}),
-            arguments.output.string());
-    return {{"path", arguments.output.string()},
-            {"bytes", bytes.size()},
-            {"sections", sections_json(file.sections())}};
-}
-
 } // namespace
 
 BakeFacts BakedFile::facts(const BakeArguments& arguments) const {
@@ -112,15 +103,13 @@ BakedFile bake_file(const BakeArguments& arguments) {
         map.parts.front().errors = measure::error_figures(*baked.measurement);
     }
     map.metadata = metadata(baked.facts(arguments));
-    const std::vector<std::byte> bytes = encode(map, arguments);
+    baked.bytes = encode(map, arguments);
     InterruptGuard::check();
     if (arguments.make_folders) make_folders_of(arguments.output);
     StagedFile file(arguments.output);
-    file.write(bytes);
+    file.write(baked.bytes);
     InterruptGuard::check();
     file.commit();
-    baked.bytes = bytes.size();
-    baked.output = output_json(arguments, bytes);
     baked.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return baked;
 }

@@ -4,8 +4,9 @@
 
 #include "bake_report.h"
 
-#include <cstdint>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace spa::tools {
 
@@ -13,8 +14,7 @@ struct BakedFile {
     import::Result source;
     bake::Report report;
     std::optional<measure::Measurement> measurement; // if settings.measure
-    nlohmann::ordered_json output;                   // {"path", "bytes", "sections"}
-    std::uint64_t bytes = 0;                         // of the file
+    std::vector<std::byte> bytes;                    // of the file
     double seconds = 0;                              // reading and writing included
 
     // For the reports; refers to *this and to the arguments that it was baked with.

@@ -5,6 +5,8 @@
 
 #include "../formats/container/checksum.h"
 
+#include <nlohmann/json.hpp>
+
 #include <charconv>
 #include <span>
 

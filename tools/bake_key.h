@@ -5,7 +5,7 @@
 
 #include "../formats/import/import.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 

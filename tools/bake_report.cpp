@@ -5,6 +5,8 @@
 #include "text.h"
 #include "validate_report.h"
 
+#include <nlohmann/json.hpp>
+
 namespace spa::tools {
 
 namespace {

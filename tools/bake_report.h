@@ -9,7 +9,7 @@
 #include "../libspa/bake/bake.h"
 #include "../libspa/measure/measure_map.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <string>

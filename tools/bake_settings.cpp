@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake_settings.h"
 
+#include <CLI/App.hpp>
+#include <nlohmann/json.hpp>
+
 #include <memory>
 #include <optional>
 

@@ -7,7 +7,7 @@
 
 #include "../libspa/bake/bake_options.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <functional>
 #include <string>

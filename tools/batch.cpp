@@ -6,6 +6,8 @@
 #include "picture_store.h"
 #include "verb.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <iostream>
 #include <optional>

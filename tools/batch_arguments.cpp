@@ -3,6 +3,8 @@
 
 #include "memory_budget.h"
 
+#include <CLI/App.hpp>
+
 #include <algorithm>
 #include <cstdlib>
 #include <memory>

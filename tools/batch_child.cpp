@@ -12,6 +12,8 @@
 
 #include "../libspa/bake/crossings.h"
 
+#include <nlohmann/json.hpp>
+
 #include <limits>
 #include <new>
 #include <span>
@@ -41,7 +43,7 @@ void bake(const ChildTask& task, AssetResult& result) {
     result.warnings = warnings(facts);
     for (const import::SourceFile& file : baked.source.report.files) result.facts.source_bytes += file.bytes;
     result.facts.triangles = baked.report.triangles;
-    result.facts.bytes = baked.bytes;
+    result.facts.bytes = baked.bytes.size();
     if (baked.measurement) result.facts.figures = figures_json(*baked.measurement).dump();
 }
 
@@ -61,11 +63,12 @@ void judge_and_bake(const ChildTask& task, AssetResult& result) {
         bake(task, result);
 }
 
-void fail(AssetResult& result) {
+// place: what the message does not say itself.
+void fail(AssetResult& result, const std::string& place = "") {
     const Failure failure = current_failure();
     result.status = AssetStatus::failed;
     result.exit_code = failure.code;
-    result.error = failure.message;
+    result.error = place + failure.message;
 }
 
 // A picture that cannot be made is not worth failing for.
@@ -82,6 +85,7 @@ std::vector<std::byte> picture_of(const std::filesystem::path& map) {
 std::string run_child(const ChildTask& task) {
     ChildOutcome outcome;
     AssetResult& result = outcome.result;
+    const std::string place = task.asset.path.string() + ": ";
     try {
         if (!task.is_current) judge_and_bake(task, result);
     } catch (const bake::Cancelled&) {
@@ -89,11 +93,13 @@ std::string run_child(const ChildTask& task) {
     } catch (const OutputError& error) {
         outcome.output_failed = error.concerns_all();
         fail(result);
+    } catch (const Error&) {
+        fail(result);
     } catch (const std::bad_alloc&) {
         outcome.out_of_memory = true;
-        fail(result);
+        fail(result, place);
     } catch (...) {
-        fail(result);
+        fail(result, place);
     }
     const bool has_map = task.is_current || result.status == AssetStatus::up_to_date ||
                          (result.status == AssetStatus::baked && !task.dry_run);

@@ -4,6 +4,9 @@
 #include "glob.h"
 #include "near_names.h"
 
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -55,6 +58,7 @@ GivenSettings parse_options(const Json& json, const std::string& where) {
                                         [&](const SettingName& setting) { return setting.name == name; });
         if (found == known.end()) {
             std::vector<std::string> names;
+            names.reserve(known.size());
             for (const SettingName& setting : known) names.push_back(setting.name.substr(2));
             refuse(where, "there is no option '" + key + "' of a bake" + did_you_mean(name.substr(2), names));
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "batch_page.h"
 
+#include <nlohmann/json.hpp>
 #include <page/batch_page_text.h>
 
 #include <algorithm>

@@ -55,11 +55,11 @@ void BatchProgress::done(const BatchAsset& asset, const AssetResult& result, std
     const bool failed = result.status == AssetStatus::failed;
     if (failed) ++failed_;
     if (quiet_) return;
+    const std::string line = one_line(asset.name) + ": " + outcome_text(result) + "\n";
     if (!terminal_)
-        std::cerr << "spa: [" << done_ << "/" << assets_ << "] " << one_line(asset.name) << ": "
-                  << outcome_text(result) << '\n';
+        std::cerr << "spa: [" << done_ << "/" << assets_ << "] " << line;
     else if (failed)
-        std::cerr << "\r\x1b[Kspa: " << one_line(asset.name) << ": " << outcome_text(result) << '\n';
+        std::cerr << "\r\x1b[Kspa: " << line;
     update();
 }
 

@@ -5,6 +5,8 @@
 
 #include "../formats/container/text.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <csignal>
 #include <utility>
@@ -134,8 +136,8 @@ std::string batch_text(const BatchReport& report) {
         if (++listed > most_failures_listed)
             ++unlisted;
         else
-            text += "  failed  " + one_line(report.assets[i].name) + ": exit " +
-                    std::to_string(int(result.exit_code)) + ": " + one_line(result.error) + "\n";
+            text += "  failed  exit " + std::to_string(int(result.exit_code)) + ": " +
+                    one_line(result.error) + "\n";
     }
     if (unlisted > 0)
         text += "  and " + std::to_string(unlisted) + " more that failed; --report names them\n";
@@ -145,9 +147,10 @@ std::string batch_text(const BatchReport& report) {
         read += result.facts.source_bytes;
         written += result.facts.bytes;
     }
-    if (!report.arguments.dry_run)
-        text += "  " + fixed(report.seconds, 2) + " s, " + byte_count(read) + " of sources into " +
-                byte_count(written) + " of maps\n";
+    if (report.arguments.dry_run) return text;
+    text += "  " + fixed(report.seconds, 2) + " s";
+    if (written > 0) text += ", " + byte_count(read) + " of sources into " + byte_count(written) + " of maps";
+    text += "\n";
     return text;
 }
 

@@ -6,7 +6,7 @@
 #include "batch_assets.h"
 #include "up_to_date.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <array>
 #include <cstdint>
@@ -27,8 +27,9 @@ struct AssetResult {
     AssetStatus status = AssetStatus::not_started;
     BakeReason reason = BakeReason::none; // of a bake
     ExitCode exit_code = ExitCode::ok;
-    int signal = 0; // that ended the process; 0 = none
-    std::string error, diagnostics;
+    int signal = 0;    // that ended the process; 0 = none
+    std::string error; // begins with a path
+    std::string diagnostics;
     std::vector<std::string> warnings;
     double seconds = 0;
     std::uint64_t peak_memory_bytes = 0;

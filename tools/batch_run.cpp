@@ -156,7 +156,7 @@ private:
         if (was_stopped && report_.stopped_by == BatchStop::signal) return; // not_started
         if (was_stopped) {
             outcome.result.signal = end.signal != 0 ? end.signal : outcome.interrupt;
-            describe_end(end, outcome.result);
+            describe_end(end, start.task.asset, outcome.result);
         }
         if (may_want_memory(end, outcome) && start.memory_bytes < arguments_.memory_bytes) {
             if (report_.stopped_by != BatchStop::none) return; // not_started
@@ -183,22 +183,23 @@ private:
     static bool asks_to_end(int signal) { return signal == SIGTERM || signal == SIGINT || signal == SIGHUP; }
 
     // What is to be said of a process that was stopped; result.signal is known.
-    void describe_end(const WorkerEnd& end, AssetResult& result) const {
+    void describe_end(const WorkerEnd& end, const BatchAsset& asset, AssetResult& result) const {
         result.status = AssetStatus::failed;
+        result.error = asset.path.string() + ": ";
+        const std::string signal = signal_name(result.signal);
         if (end.timed_out) {
             result.exit_code = ExitCode::limits;
-            result.error =
+            result.error +=
                 "took longer than " + std::to_string(arguments_.timeout->count()) + " s (--timeout)";
-        } else if (end.signal == SIGKILL) {
+        } else if (result.signal == SIGKILL) {
             result.exit_code = ExitCode::unsupported;
-            result.error =
+            result.error +=
                 "was killed (SIGKILL), as the system does when it is out of memory; lower --memory or --jobs";
         } else {
-            const std::string signal = " (" + signal_name(result.signal) + ")";
             result.exit_code = ExitCode::internal;
-            result.error = result.signal == 0           ? "its process ended without a result"
-                           : asks_to_end(result.signal) ? "was ended by somebody else" + signal
-                                                        : "crashed" + signal;
+            result.error += result.signal == 0           ? "its process ended without a result"
+                            : asks_to_end(result.signal) ? "was ended by somebody else (" + signal + ")"
+                                                         : "crashed (" + signal + ")";
         }
     }
 

@@ -4,6 +4,8 @@
 
 #include "../samples/samples.h"
 
+#include <CLI/App.hpp>
+
 #include <memory>
 
 // Text about what only a build with Vulkan has.

@@ -7,6 +7,8 @@
 
 #include "../samples/samples.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <iostream>
 

@@ -17,6 +17,8 @@
 #include "../libspa/measure/stopwatch.h"
 #include "../samples/scenes.h"
 
+#include <nlohmann/json.hpp>
+
 #include <functional>
 #include <map>
 #include <utility>

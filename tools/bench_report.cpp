@@ -4,6 +4,8 @@
 #include "bake_arguments.h"
 #include "text.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 
 namespace spa::tools {

@@ -4,7 +4,7 @@
 
 #include "../libspa/measure/bench_bake.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <optional>

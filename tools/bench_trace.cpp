@@ -14,6 +14,8 @@
 #include "../libspa/trace/trace.h"
 #include "../samples/samples.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 
 namespace spa::tools {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_trace_report.h"
 
+#include <nlohmann/json.hpp>
+
 namespace spa::tools {
 
 namespace {

@@ -5,7 +5,7 @@
 #include "../libspa/measure/bench_trace.h"
 #include "../libspa/measure/trace_bars.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -8,6 +8,9 @@
 #include "text.h"
 #include "verb.h"
 
+#include <CLI/App.hpp>
+#include <nlohmann/json.hpp>
+
 #include <iostream>
 #include <memory>
 

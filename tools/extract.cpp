@@ -7,6 +7,9 @@
 #include "text.h"
 #include "verb.h"
 
+#include <CLI/App.hpp>
+#include <nlohmann/json.hpp>
+
 #include <memory>
 
 namespace spa::tools {

@@ -4,6 +4,8 @@
 #include "text.h"
 #include "verb.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <memory>
 #include <sstream>

@@ -8,6 +8,9 @@
 #include "sheet.h"
 #include "verb.h"
 
+#include <CLI/App.hpp>
+#include <nlohmann/json.hpp>
+
 #include <memory>
 
 namespace spa::tools {

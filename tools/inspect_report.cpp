@@ -7,6 +7,8 @@
 
 #include "../libspa/core/cell_triangles.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 
 namespace spa::tools {

@@ -55,7 +55,7 @@ cpp_files() {
 
 case ${1-} in
 shell)
-    find tools tests .ci -type f \( -name '*.sh' -o -path .ci/run \) | sort | xargs shellcheck
+    find tools tests samples .ci -type f \( -name '*.sh' -o -path .ci/run \) | sort | xargs shellcheck
     ;;
 format)
     cpp_files | xargs clang-format --dry-run -Werror

@@ -3,6 +3,8 @@
 
 #include "../libspa/core/error.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cstdio>
 
 namespace spa::tools {

@@ -4,7 +4,7 @@
 
 #include "../formats/container/reader.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 

@@ -3,6 +3,8 @@
 
 #include "text.h"
 
+#include <nlohmann/json.hpp>
+
 #include <system_error>
 
 namespace spa::tools {

@@ -4,6 +4,8 @@
 #include "paper_printed.h"
 #include "text.h"
 
+#include <nlohmann/json.hpp>
+
 namespace spa::tools {
 namespace {
 

@@ -5,7 +5,7 @@
 #include "paper_figures.h"
 #include "paper_tables.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>

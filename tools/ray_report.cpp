@@ -3,6 +3,8 @@
 
 #include "text.h"
 
+#include <nlohmann/json.hpp>
+
 namespace spa::tools {
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include "../libspa/measure/map_rays.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 

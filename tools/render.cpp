@@ -6,6 +6,8 @@
 #include "render_report.h"
 #include "verb.h"
 
+#include <nlohmann/json.hpp>
+
 #include <chrono>
 #include <iostream>
 #include <memory>

@@ -3,6 +3,8 @@
 
 #include "../shaders/spa_method.h"
 
+#include <CLI/App.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>

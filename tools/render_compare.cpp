@@ -9,6 +9,8 @@
 
 #include "../libspa/core/error.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>

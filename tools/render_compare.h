@@ -8,7 +8,7 @@
 #include "../formats/import/linear_picture.h"
 #include "../libspa/render/render.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <string>

@@ -3,6 +3,8 @@
 
 #include "text.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <numbers>
 #include <utility>

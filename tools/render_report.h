@@ -6,7 +6,7 @@
 #include "render_compare.h"
 #include "render_input.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -7,6 +7,7 @@
 
 #include "../samples/scenes.h"
 
+#include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
 
 #include <memory>

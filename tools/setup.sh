@@ -50,6 +50,7 @@ libgtest-dev
 nodejs:node
 npm:npm
 python3:python3
+python3-yaml
 zstd
 mesa-vulkan-drivers>=25
 directx-headers-dev
@@ -64,7 +65,11 @@ clang-format
 clang-tidy
 jq
 libclang-rt-14-dev
+munge
 shellcheck
+slurm-client
+slurmctld
+slurmd
 LIST
         ;;
     hlsl)

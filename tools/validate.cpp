@@ -9,6 +9,9 @@
 
 #include "arguments.h"
 
+#include <CLI/App.hpp>
+#include <nlohmann/json.hpp>
+
 #include <array>
 #include <iostream>
 #include <memory>

@@ -4,6 +4,8 @@
 #include "ray_report.h"
 #include "text.h"
 
+#include <nlohmann/json.hpp>
+
 namespace spa::tools {
 
 namespace {

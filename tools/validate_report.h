@@ -6,7 +6,7 @@
 
 #include "../libspa/measure/findings.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <optional>

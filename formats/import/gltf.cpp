@@ -32,6 +32,7 @@ Json parse_json(std::string_view text, const Context& context) {
 }
 
 void check_document(Json& document, const Context& context) {
+    check_counts(document, context);
     check_schema(document, context);
     check_asset(document, context);
     check_buffer_views(document, context);
@@ -47,7 +48,7 @@ void check_document(Json& document, const Context& context) {
 // tinygltf's model of what is left in the document. Takes out what tinygltf would open, decode or stumble
 // over: indices of Draco primitives have no buffer view, which it refuses.
 tinygltf::Model build_model(Json& document, const Context& context) {
-    for (const char* key : {"buffers", "cameras", "extensions", "extras"}) document.erase(key);
+    for (const char* key : {"buffers", "cameras", "extensions"}) document.erase(key);
     Json animations = std::move(document["animations"]);
     document.erase("animations");
     if (document.contains("meshes"))
@@ -56,6 +57,7 @@ tinygltf::Model build_model(Json& document, const Context& context) {
                 if (member_of(primitive, "extensions").contains("KHR_draco_mesh_compression"))
                     primitive.erase("indices");
 
+    remove_unread(document);
     const std::string text = document.dump();
     document = Json::object();
     if (!animations.is_null()) document["animations"] = std::move(animations);
@@ -98,6 +100,10 @@ Size total_size(const tinygltf::Model& model, const std::vector<Instance>& insta
                 fail(context, "",
                      "the scene has more vertices than the limit of " +
                          std::to_string(context.limits.vertices));
+            if (total.vertices * vertex_bytes + total.triangles * triangle_bytes > context.limits.model_bytes)
+                fail(context, "",
+                     "the scene makes a model larger than the limit of " +
+                         std::to_string(context.limits.model_bytes) + " bytes");
             if (total.triangles > context.limits.triangles)
                 fail(context, "",
                      "the scene has more triangles than the limit of " +
@@ -143,6 +149,7 @@ void assemble(const tinygltf::Model& model, Buffers& buffers, Images& images, co
             if (primitive.material >= 0) used[static_cast<std::size_t>(primitive.material)] = true;
             any_colors = any_colors || primitive.attributes.count("COLOR_0") != 0;
         }
+    images.reserve(total.vertices * vertex_bytes + total.triangles * triangle_bytes);
     Materials materials(model, used, images, out, context);
     out.positions.reserve(total.vertices);
     out.normals.reserve(total.vertices);
@@ -176,7 +183,6 @@ void assemble(const tinygltf::Model& model, Buffers& buffers, Images& images, co
 }
 
 void read(const Context& context, const Target& target) {
-    add_source(context.report, context.asset);
     const Container container = split_container(context.asset.file.bytes, context);
     context.report.format = container.binary ? "GLB" : "glTF";
     Json document = parse_json(container.json, context);
@@ -193,9 +199,10 @@ void read(const Context& context, const Target& target) {
         error = caught;
     }
     // After the assembly: its errors matter more than these warnings, which help to explain them.
-    check_bounds(model, buffers, context);
-    check_colors(model, buffers, context);
-    check_animation_times(document, model, buffers, context);
+    CheckBudget budget(context);
+    check_bounds(model, buffers, budget, context);
+    check_colors(model, buffers, budget, context);
+    check_animation_times(document, model, buffers, budget, context);
     images.check_unused();
     if (error) throw Error(*error);
 }
@@ -220,13 +227,15 @@ void read_with_causes(const Context& context, const Target& target) {
 
 Result read_gltf(const Asset& asset, const Limits& limits) {
     Result result;
-    gltf::read_with_causes({asset, limits, result.report}, {result.model});
+    References references(asset, limits, result.report);
+    gltf::read_with_causes({asset, limits, result.report, references}, {result.model});
     return result;
 }
 
 SceneResult read_gltf_scene(const Asset& asset, const Limits& limits) {
     SceneResult result;
-    gltf::read_with_causes({asset, limits, result.report}, {result.scene.model, &result.scene});
+    References references(asset, limits, result.report);
+    gltf::read_with_causes({asset, limits, result.report, references}, {result.scene.model, &result.scene});
     return result;
 }
 

@@ -28,12 +28,10 @@ Buffers::Buffers(Json& document, const Container& container, const Context& cont
                 const Reference reference = resolve_reference(context.asset.path, uri, Encoding::uri);
                 auto found = files_.find(reference.name);
                 if (found == files_.end()) {
-                    std::optional<FileContent> content =
-                        read_reference(context.asset, reference, context.limits);
+                    std::optional<FileContent> content = context.references.read(reference);
                     if (!content)
                         fail(context, where + ".uri", "the file '" + reference.name + "' does not exist");
                     found = files_.emplace(reference.name, std::move(*content)).first;
-                    add_source(context.report, reference.name, found->second);
                 }
                 bytes = found->second.bytes;
             }
@@ -78,6 +76,11 @@ std::span<const std::byte> Buffers::view(std::size_t index) {
     const auto found = decoded_.find(index);
     if (found != decoded_.end()) return found->second;
     claim_compressed(integer_of(view.meshopt, "byteLength"), where);
+    decoded_bytes_ += view.length;
+    if (decoded_bytes_ > context_.limits.model_bytes)
+        fail(context_, where,
+             "the compressed buffer views take more than the limit of " +
+                 std::to_string(context_.limits.model_bytes) + " bytes");
     const MeshoptView settings{integer_of(view.meshopt, "count"), integer_of(view.meshopt, "byteStride"),
                                view.meshopt["mode"], view.meshopt.value("filter", "NONE")};
     std::vector<std::byte> bytes = decode_meshopt(

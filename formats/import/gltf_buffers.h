@@ -45,6 +45,7 @@ private:
     std::vector<View> views_;
     std::map<std::size_t, std::vector<std::byte>> decoded_; // meshopt views
     std::size_t compressed_bytes_ = 0;                      // claimed so far
+    std::uint64_t decoded_bytes_ = 0;                       // of meshopt views
 
     [[nodiscard]] std::span<const std::byte> range(std::size_t buffer, std::size_t offset, std::size_t length,
                                                    const std::string& where) const;

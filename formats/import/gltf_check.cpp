@@ -203,7 +203,13 @@ void check_primitive(const Json& document, const Json& primitive, const std::str
     };
     (void)set_count("TEXCOORD_");
     (void)set_count("COLOR_");
-    if (set_count("JOINTS_") != set_count("WEIGHTS_"))
+    constexpr std::size_t most_sets = 8;
+    const std::size_t joints = set_count("JOINTS_");
+    if (joints > most_sets)
+        fail(context, where + ".attributes",
+             "has " + std::to_string(joints) + " JOINTS_n, more than the limit of " +
+                 std::to_string(most_sets));
+    if (joints != set_count("WEIGHTS_"))
         fail(context, where + ".attributes", "JOINTS_n and WEIGHTS_n do not come in pairs");
 }
 

@@ -2,6 +2,7 @@
 // The node hierarchy: transforms, loops, depth, several parents, scenes.
 #include "gltf_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -105,13 +106,15 @@ void check_nodes(const Json& document, const Context& context) {
     LoopFinder finder(nodes, context);
     for (std::size_t i = 0; i < nodes.size(); ++i) finder.visit(i);
 
-    const Json& meshes = member_of(document, "meshes");
+    std::vector<bool> skinned; // by mesh: many nodes may share one
+    for (const Json& mesh : member_of(document, "meshes"))
+        skinned.push_back(
+            std::any_of(mesh["primitives"].begin(), mesh["primitives"].end(),
+                        [](const Json& primitive) { return primitive["attributes"].contains("JOINTS_0"); }));
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (!nodes[i].contains("skin") || !nodes[i].contains("mesh")) continue;
-        bool skinned = false;
-        for (const Json& primitive : meshes[integer_of(nodes[i], "mesh")]["primitives"])
-            skinned = skinned || primitive["attributes"].contains("JOINTS_0");
-        if (!skinned) warn(context, at("nodes", i), "has a skin, but its mesh has no JOINTS_0 and WEIGHTS_0");
+        if (!skinned[integer_of(nodes[i], "mesh")])
+            warn(context, at("nodes", i), "has a skin, but its mesh has no JOINTS_0 and WEIGHTS_0");
     }
 }
 

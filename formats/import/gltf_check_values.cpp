@@ -62,12 +62,24 @@ bool differs(std::span<const double> claimed, const std::array<double, most_comp
 
 } // namespace
 
-void check_bounds(const tinygltf::Model& model, Buffers& buffers, const Context& context) {
+bool CheckBudget::spend(std::uint64_t numbers) {
+    if (numbers <= left_) {
+        left_ -= numbers;
+        return true;
+    }
+    warn(context_, "accessors", "share more data than is checked; some of their values are not");
+    return false;
+}
+
+void check_bounds(const tinygltf::Model& model, Buffers& buffers, CheckBudget& budget,
+                  const Context& context) {
     for (std::size_t i = 0; i < model.accessors.size(); ++i) {
         const tinygltf::Accessor& accessor = model.accessors[i];
         if (accessor.bufferView < 0 || accessor.sparse.isSparse) continue;
         if (accessor.minValues.empty() && accessor.maxValues.empty()) continue;
-        const Bounds bounds = bounds_of(elements_of(accessor, buffers));
+        const Elements elements = elements_of(accessor, buffers);
+        if (!budget.spend(elements.count * elements.components)) return;
+        const Bounds bounds = bounds_of(elements);
         // Integers are checked where they are used; normalised ones may state their bounds either way.
         if (accessor.normalized) continue;
         if (differs(accessor.minValues, bounds.lower, bounds))
@@ -77,7 +89,8 @@ void check_bounds(const tinygltf::Model& model, Buffers& buffers, const Context&
     }
 }
 
-void check_colors(const tinygltf::Model& model, Buffers& buffers, const Context& context) {
+void check_colors(const tinygltf::Model& model, Buffers& buffers, CheckBudget& budget,
+                  const Context& context) {
     std::vector<bool> seen(model.accessors.size());
     for (const tinygltf::Mesh& mesh : model.meshes)
         for (const tinygltf::Primitive& primitive : mesh.primitives)
@@ -88,7 +101,9 @@ void check_colors(const tinygltf::Model& model, Buffers& buffers, const Context&
                 seen[i] = true;
                 if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT || accessor.bufferView < 0)
                     continue;
-                const Bounds bounds = bounds_of(elements_of(accessor, buffers));
+                const Elements elements = elements_of(accessor, buffers);
+                if (!budget.spend(elements.count * elements.components)) return;
+                const Bounds bounds = bounds_of(elements);
                 if (*std::min_element(bounds.lower.begin(), bounds.lower.end()) < 0.0 ||
                     *std::max_element(bounds.upper.begin(), bounds.upper.end()) > 1.0)
                     warn(context, at("accessors", i), "holds " + name + " with values outside [0, 1]");
@@ -96,7 +111,7 @@ void check_colors(const tinygltf::Model& model, Buffers& buffers, const Context&
 }
 
 void check_animation_times(const Json& document, const tinygltf::Model& model, Buffers& buffers,
-                           const Context& context) {
+                           CheckBudget& budget, const Context& context) {
     const Json& animations = member_of(document, "animations");
     for (std::size_t i = 0; i < animations.size(); ++i) {
         const Json& samplers = animations[i]["samplers"];
@@ -109,6 +124,7 @@ void check_animation_times(const Json& document, const tinygltf::Model& model, B
                 continue;
             }
             if (accessor.bufferView < 0 || accessor.sparse.isSparse) continue;
+            if (!budget.spend(accessor.count)) return;
             std::vector<float> times(accessor.count);
             read_floats(elements_of(accessor, buffers), {}, 1, times.data(), 1);
             if (times.front() < 0) warn(context, where, "has a negative time");

@@ -26,8 +26,13 @@ std::string_view text_of(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-void check_nesting(std::string_view json, const Context& context) {
+// A value takes up to a hundred bytes in the parser's tree, some thirty times its text.
+constexpr std::size_t max_values = std::size_t{1} << 24U;
+
+// Before the parser sees the text.
+void check_extent(std::string_view json, const Context& context) {
     int depth = 0;
+    std::size_t values = 1;
     for (std::size_t i = 0; i < json.size(); ++i) {
         const char c = json[i];
         if (c == '"') {
@@ -40,13 +45,18 @@ void check_nesting(std::string_view json, const Context& context) {
                 i = quote;
                 if (backslashes % 2 == 0) break;
             }
+        } else if (c == ',') {
+            ++values;
         } else if (c == '{' || c == '[') {
+            ++values;
             if (++depth > max_nesting)
                 fail(context, "",
                      "the JSON is nested deeper than " + std::to_string(max_nesting) + " levels");
         } else if (c == '}' || c == ']') {
             --depth;
         }
+        if (values > max_values)
+            fail(context, "", "the JSON has more than " + std::to_string(max_values) + " values");
     }
 }
 
@@ -118,7 +128,7 @@ Container split_container(std::span<const std::byte> file, const Context& contex
             container.json.remove_prefix(3);
         }
     }
-    check_nesting(container.json, context);
+    check_extent(container.json, context);
     return container;
 }
 

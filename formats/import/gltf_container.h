@@ -18,7 +18,7 @@ struct Container {
 };
 
 // Splits the bytes of a .gltf or .glb file. Throws Error(invalid_data) for a damaged GLB and for JSON that is
-// nested so deeply that it is an attack.
+// nested so deeply or has so many values that it is an attack.
 Container split_container(std::span<const std::byte> file, const Context& context);
 
 } // namespace spa::import::gltf

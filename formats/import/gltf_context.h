@@ -5,6 +5,7 @@
 #include "../../libspa/core/error.h"
 #include "import.h"
 #include "source_file.h"
+#include "text.h"
 
 #include <string>
 #include <string_view>
@@ -15,16 +16,17 @@ struct Context {
     const Asset& asset;
     const Limits& limits;
     Report& report;
+    References& references;
 };
 
 // `where` is the place in the document, as in "accessors[3].bufferView"; may be empty.
 [[noreturn]] inline void fail(const Context& context, const std::string& where, const std::string& what) {
     throw Error(ExitCode::invalid_data,
-                context.asset.path.string() + ": " + (where.empty() ? "" : where + ": ") + what);
+                context.asset.path.string() + ": " + shorten((where.empty() ? "" : where + ": ") + what));
 }
 
 inline void warn(const Context& context, const std::string& where, const std::string& what) {
-    add_warning(context.report, (where.empty() ? "" : where + ": ") + what);
+    add_warning(context.report, shorten((where.empty() ? "" : where + ": ") + what));
 }
 
 // "accessors[3]"

@@ -4,10 +4,10 @@
 #include <cstring>
 #include <memory>
 #include <new>
-#include <optional>
 #include <stdexcept>
 
-#include <draco/compression/decode.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/mesh/mesh.h>
 
 namespace spa::import::gltf {
@@ -17,22 +17,29 @@ namespace {
 // more than a bit for a triangle, and flat grids a little less.
 constexpr std::uint64_t max_triangles_per_byte = 64;
 
-// The number of triangles in the header, before anything is allocated for them; none if it is cut off.
-// Layout: "DRACO", version 2 x u8, geometry type u8, method u8, flags u16, optional metadata, then (version
-// 2.2) for method 1 (edgebreaker) u8 traversal, varint vertices, varint triangles and for method 0
-// (sequential) varint triangles. Metadata comes first only if flag bit 15 is set: glTF exporters write none.
-struct Header {
-    unsigned geometry = 0;
-    std::optional<std::uint64_t> triangles;
+// What the decoder itself takes for a triangle, measured: corner tables, traversal, indices.
+constexpr std::uint64_t decoder_bytes_per_triangle = 256;
+
+// The counts that the data begins with, before anything is allocated for them.
+struct Claim {
+    bool edgebreaker = false;
+    std::uint64_t triangles = 0, vertices = 0;
 };
 
-Header read_header(std::span<const std::byte> bytes) {
-    Header header;
+// Layout: "DRACO", version 2 x u8, geometry type u8, method u8, flags u16, then for method 1 (edgebreaker) u8
+// traversal, varint vertices, varint triangles and for method 0 (sequential) varint triangles, varint
+// vertices. Metadata come first if flag bit 15 is set. glTF exporters write version 2.2 and no metadata.
+Claim read_claim(std::span<const std::byte> bytes, const std::string& place, const Context& context) {
     const auto u8 = [&](std::size_t i) {
         return i < bytes.size() ? std::to_integer<unsigned>(bytes[i]) : 0U;
     };
-    header.geometry = u8(7);
-    if (bytes.size() < 12 || u8(5) != 2 || u8(6) < 2 || (u8(10) & 0x80U) != 0) return header;
+    if (bytes.size() < 12 || u8(7) != draco::TRIANGULAR_MESH)
+        fail(context, place, "the data is not a Draco mesh");
+    if (u8(5) != 2 || u8(6) != 2)
+        fail(context, place,
+             "the data is of version " + std::to_string(u8(5)) + "." + std::to_string(u8(6)) +
+                 "; only 2.2 is read");
+    if ((u8(10) & 0x80U) != 0) fail(context, place, "the data has metadata, which is not read");
     std::size_t i = 11;
     const auto varint = [&]() -> std::uint64_t {
         std::uint64_t value = 0;
@@ -43,12 +50,57 @@ Header read_header(std::span<const std::byte> bytes) {
         }
         return value;
     };
-    if (u8(8) == 1) {
-        ++i;
-        (void)varint();
+    Claim claim;
+    claim.edgebreaker = u8(8) == draco::MESH_EDGEBREAKER_ENCODING;
+    if (claim.edgebreaker) ++i;
+    const std::uint64_t first = varint(), second = varint();
+    claim.triangles = claim.edgebreaker ? second : first;
+    claim.vertices = claim.edgebreaker ? first : second;
+    return claim;
+}
+
+void check_claim(const Claim& claim, std::size_t bytes, const std::string& place, const Context& context) {
+    if (claim.triangles > max_triangles_per_byte * bytes || claim.vertices > 3 * claim.triangles)
+        fail(context, place,
+             "the data claims " + std::to_string(claim.triangles) + " triangles and " +
+                 std::to_string(claim.vertices) + " vertices in " + std::to_string(bytes) + " bytes");
+    const Limits& limits = context.limits;
+    if (claim.triangles > limits.triangles || claim.vertices > limits.vertices ||
+        claim.triangles * decoder_bytes_per_triangle > limits.model_bytes)
+        fail(context, place,
+             "the data claims " + std::to_string(claim.triangles) + " triangles, more than the limits allow");
+}
+
+// A decoder that knows what the attributes will take before it decodes them: their headers can claim any
+// number, and equal values take no data.
+template <class Decoder>
+class Bounded final : public Decoder {
+public:
+    explicit Bounded(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+
+private:
+    bool DecodeAllAttributes() override { // NOLINT(readability-identifier-naming)
+        const draco::PointCloud& points = *this->point_cloud();
+        std::uint64_t bytes = 0;
+        for (int i = 0; i < points.num_attributes(); ++i) {
+            // Decoded to 32-bit numbers first, then to the type.
+            const draco::PointAttribute& attribute = *points.attribute(i);
+            const auto size = static_cast<std::uint64_t>(draco::DataTypeLength(attribute.data_type()));
+            bytes += std::uint64_t{attribute.num_components()} * (size + 4) * points.num_points();
+            if (bytes > most_bytes_) return false;
+        }
+        return Decoder::DecodeAllAttributes();
     }
-    header.triangles = varint();
-    return header;
+
+    std::uint64_t most_bytes_;
+};
+
+template <class Decoder>
+draco::Status decode(std::span<const std::byte> bytes, std::uint64_t most_bytes, draco::Mesh& mesh) {
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const draco::DecoderOptions options;
+    return Bounded<Decoder>(most_bytes).Decode(options, &buffer, &mesh);
 }
 
 int component_type_of(draco::DataType type) {
@@ -95,21 +147,15 @@ DracoMesh decode_draco(const tinygltf::Model& model, const tinygltf::Primitive& 
     const std::size_t claimed =
         model.accessors[static_cast<std::size_t>(primitive.attributes.at("POSITION"))].count;
 
-    const Header header = read_header(bytes);
-    if (header.geometry != draco::TRIANGULAR_MESH) fail(context, place, "the data is not a Draco mesh");
-    if (header.triangles && *header.triangles > max_triangles_per_byte * bytes.size())
-        fail(context, place,
-             "the data claims " + std::to_string(*header.triangles) + " triangles in " +
-                 std::to_string(bytes.size()) + " bytes");
-    draco::DecoderBuffer buffer;
-    buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    std::unique_ptr<draco::Mesh> mesh;
+    const Claim claim = read_claim(bytes, place, context);
+    check_claim(claim, bytes.size(), place, context);
+    const auto mesh = std::make_unique<draco::Mesh>();
     try {
-        draco::Decoder decoder;
-        auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-        if (!decoded.ok())
-            fail(context, place, "the data is damaged: " + decoded.status().error_msg_string());
-        mesh = std::move(decoded).value();
+        const std::uint64_t most = context.limits.model_bytes;
+        const draco::Status status = claim.edgebreaker
+                                         ? decode<draco::MeshEdgebreakerDecoder>(bytes, most, *mesh)
+                                         : decode<draco::MeshSequentialDecoder>(bytes, most, *mesh);
+        if (!status.ok()) fail(context, place, "the data is damaged: " + status.error_msg_string());
     } catch (const std::bad_alloc&) {
         fail(context, place, "the data claims more memory than there is");
     } catch (const std::length_error&) {

@@ -17,8 +17,9 @@ struct DracoMesh {
     std::map<std::string, Elements> attributes;            // by the name in the primitive
 };
 
-// Decodes the primitive's compressed mesh. Throws Error(invalid_data) if it is damaged or larger than the
-// primitive's accessors say, which check_meshes and the limits have judged.
+// Decodes the primitive's compressed mesh: Draco 2.2, as glTF exporters write it, without metadata. Throws
+// Error(invalid_data) if it is damaged, is not of the size that the primitive's accessors say, which
+// check_meshes and the limits have judged, or takes more than limits.model_bytes.
 DracoMesh decode_draco(const tinygltf::Model& model, const tinygltf::Primitive& primitive, Buffers& buffers,
                        const std::string& where, const Context& context);
 

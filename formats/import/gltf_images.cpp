@@ -4,7 +4,8 @@
 #include "data_uri.h"
 #include "gltf_check.h"
 #include "image_header.h"
-#include "texture.h"
+
+#include <set>
 
 namespace spa::import::gltf {
 namespace {
@@ -21,7 +22,7 @@ std::optional<std::vector<std::byte>> decode_head(std::string_view uri) {
 } // namespace
 
 Images::Images(Json& document, Buffers& buffers, const Context& context)
-    : buffers_(buffers), context_(context) {
+    : buffers_(buffers), context_(context), budget_(context.limits) {
     const auto found = document.find("images");
     if (found == document.end()) return;
     for (Json& image : *found) {
@@ -50,9 +51,8 @@ std::uint32_t Images::texture(std::size_t image, Model& model) {
     std::vector<std::byte> storage;
     std::span<const std::byte> bytes;
     if (external) {
-        std::optional<FileContent> content = read_reference(context_.asset, reference, context_.limits);
+        std::optional<FileContent> content = context_.references.read(reference);
         if (!content) fail(context_, where + ".uri", "the file '" + name + "' does not exist");
-        add_source(context_.report, name, *content);
         storage = std::move(content->bytes);
         bytes = storage;
     } else if (!entry.uri.empty()) {
@@ -65,7 +65,7 @@ std::uint32_t Images::texture(std::size_t image, Model& model) {
         buffers_.claim_compressed(bytes.size(), where);
     }
     try {
-        model.textures.push_back(read_texture(bytes, name, context_.limits));
+        model.textures.push_back(budget_.decode(bytes, name));
     } catch (const Error& error) {
         throw Error(error.code(),
                     context_.asset.path.string() + ": " + (external ? where + ": " : "") + error.what());
@@ -77,10 +77,9 @@ std::uint32_t Images::texture(std::size_t image, Model& model) {
 
 std::optional<FileContent> Images::read_unused(const Reference& reference, const std::string& where) {
     try {
-        std::optional<FileContent> content =
-            read_reference(context_.asset, reference, context_.limits, head_bytes);
+        std::optional<FileContent> content = context_.references.read_head(reference, head_bytes);
         if (!content) {
-            add_missing(context_.report, reference.name);
+            context_.references.add_missing(reference.name);
             warn(context_, where, "the file '" + reference.name + "' does not exist");
         }
         return content;
@@ -92,9 +91,12 @@ std::optional<FileContent> Images::read_unused(const Reference& reference, const
 }
 
 void Images::check_unused() {
+    std::set<std::string> checked; // files: many images may share one
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         const Entry& entry = entries_[i];
-        if (entry.used) continue;
+        if (entry.used ||
+            (!is_data_uri(entry.uri) && !entry.uri.empty() && !checked.insert(entry.uri).second))
+            continue;
         const std::string where = at("images", i);
         std::vector<std::byte> storage;
         std::span<const std::byte> bytes;
@@ -120,7 +122,8 @@ void Images::check_unused() {
         // In a longer file the header may come after what was read.
         const bool has_header =
             kind == ImageKind::png || (kind == ImageKind::jpeg && bytes.size() < head_bytes / 2);
-        if (has_header && read_image_header(bytes).width == 0) warn(context_, where, "is a damaged image");
+        if (has_header && read_image_header(bytes, kind).width == 0)
+            warn(context_, where, "is a damaged image");
     }
 }
 

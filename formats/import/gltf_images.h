@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gltf_buffers.h"
+#include "texture.h"
 
 #include <cstdint>
 #include <map>
@@ -16,6 +17,9 @@ class Images {
 public:
     // Takes the images out of `document`. The references passed check_images.
     Images(Json& document, Buffers& buffers, const Context& context);
+
+    // What the model takes without its textures, before the first of them is asked for.
+    void reserve(std::uint64_t bytes) { budget_.spend(bytes); }
 
     // The index in model.textures of a decoded image. Throws Error for a missing file and for what cannot be
     // decoded.
@@ -38,6 +42,7 @@ private:
     Context context_;
     std::vector<Entry> entries_;
     std::map<std::string, std::uint32_t> textures_; // by file name or place in the document
+    TextureBudget budget_;
 };
 
 } // namespace spa::import::gltf

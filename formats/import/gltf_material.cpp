@@ -81,15 +81,13 @@ Wrap wrap_of(int mode) {
 // The image of a texture: its own source, else one that an extension names and that is read. -1: none.
 int image_of(const tinygltf::Texture& texture, const std::string& where, const Context& context) {
     if (texture.source >= 0) return texture.source;
-    for (const char* name : {"EXT_texture_webp", "MSFT_texture_dds"}) {
-        const auto extension = texture.extensions.find(name);
-        if (extension != texture.extensions.end() && extension->second.Has("source"))
-            return extension->second.Get("source").GetNumberAsInt();
-    }
-    if (texture.extensions.count("KHR_texture_basisu") != 0)
-        throw Error(ExitCode::unsupported,
-                    context.asset.path.string() + ": " + where +
-                        " needs KHR_texture_basisu, which is not supported; export PNG or JPEG textures");
+    const auto webp = texture.extensions.find("EXT_texture_webp");
+    if (webp != texture.extensions.end() && webp->second.Has("source"))
+        return webp->second.Get("source").GetNumberAsInt();
+    for (const char* name : {"KHR_texture_basisu", "MSFT_texture_dds"})
+        if (texture.extensions.count(name) != 0)
+            throw Error(ExitCode::unsupported, context.asset.path.string() + ": " + where + " needs " + name +
+                                                   ", which is not supported; export PNG or JPEG textures");
     warn(context, where, "has no image: the material is drawn without it");
     return -1;
 }

@@ -45,9 +45,15 @@ Affine local_transform(const tinygltf::Node& node) {
     return from_trs(t, q, s);
 }
 
+[[noreturn]] void refuse_drawings(const Context& context) {
+    fail(context, "nodes",
+         "shared children and instances multiply to more than " + std::to_string(max_nodes) + " drawings");
+}
+
 // The transforms of EXT_mesh_gpu_instancing, relative to the node.
+// Throws Error(invalid_data) for more than `most` of them.
 std::vector<Affine> gpu_instances(const tinygltf::Model& model, const tinygltf::Value& extension,
-                                  Buffers& buffers, const Context& context) {
+                                  Buffers& buffers, std::size_t most, const Context& context) {
     const tinygltf::Value& attributes = extension.Get("attributes");
     std::vector<std::array<float, 3>> translations, scales;
     std::vector<std::array<float, 4>> rotations;
@@ -60,6 +66,7 @@ std::vector<Affine> gpu_instances(const tinygltf::Model& model, const tinygltf::
         const tinygltf::Accessor* accessor = accessor_of(name);
         if (accessor == nullptr) return;
         count = accessor->count;
+        if (count > most) refuse_drawings(context);
         values.resize(count);
         read_floats(*accessor, buffers, {}, values[0].size(), values[0].data(), values[0].size(), context);
     };
@@ -139,16 +146,14 @@ std::vector<Instance> flatten_scene(const tinygltf::Model& model, Buffers& buffe
             if (extension == node.extensions.end()) {
                 instances.push_back({visit.node, visit.world, own});
             } else {
-                for (const Affine& local : gpu_instances(model, extension->second, buffers, context)) {
+                const std::size_t most = max_nodes - std::min(max_nodes, visits + instances.size());
+                for (const Affine& local : gpu_instances(model, extension->second, buffers, most, context)) {
                     const Affine world = visit.world * local;
                     instances.push_back({visit.node, world, note({visit.node, own, world, true})});
                 }
             }
         }
-        if (visits + stack.size() + instances.size() > max_nodes)
-            fail(context, "nodes",
-                 "shared children and instances multiply to more than " + std::to_string(max_nodes) +
-                     " drawings");
+        if (visits + stack.size() + instances.size() > max_nodes) refuse_drawings(context);
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
             push(static_cast<std::size_t>(*child), own, visit.world);
     }

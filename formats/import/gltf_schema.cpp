@@ -2,9 +2,12 @@
 #include "gltf_schema.h"
 
 #include "gltf_schema_tables.h"
+#include "readers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <span>
 
@@ -145,6 +148,55 @@ bool is_one_of(std::string_view words, std::string_view word) {
 void check_schema(Json& document, const Context& context) {
     if (!document.is_object()) fail(context, "", "the JSON is not an object");
     Checker(document, context).check_object(document, root, "");
+}
+
+void check_counts(const Json& document, const Context& context) {
+    struct Row {
+        const char* name;
+        std::size_t most;
+    };
+    constexpr std::size_t many = std::size_t{1} << 21U, some = std::size_t{1} << 18U,
+                          few = std::size_t{1} << 16U;
+    constexpr Row rows[] = {{"accessors", many},   {"bufferViews", many}, {"nodes", max_nodes},
+                            {"meshes", max_nodes}, {"buffers", few},      {"images", few},
+                            {"samplers", few},     {"textures", few},     {"materials", few},
+                            {"cameras", few},      {"skins", some},       {"animations", some},
+                            {"scenes", some}};
+    if (!document.is_object()) return;
+    const auto check = [&](const std::string& name, std::size_t count, std::size_t most) {
+        if (count > most)
+            fail(context, name,
+                 "has " + std::to_string(count) + " elements, more than the limit of " +
+                     std::to_string(most));
+    };
+    for (const Row& row : rows) {
+        const auto found = document.find(row.name);
+        if (found != document.end()) check(row.name, found->size(), row.most);
+    }
+    const auto meshes = document.find("meshes");
+    if (meshes == document.end() || !meshes->is_array()) return;
+    std::size_t primitives = 0;
+    for (const Json& mesh : *meshes)
+        if (mesh.is_object() && mesh.contains("primitives")) primitives += mesh["primitives"].size();
+    check("meshes.primitives", primitives, many);
+}
+
+void remove_unread(Json& document) {
+    constexpr std::string_view read[] = {"KHR_draco_mesh_compression", "EXT_mesh_gpu_instancing",
+                                         "KHR_texture_transform",      "EXT_texture_webp",
+                                         "KHR_texture_basisu",         "MSFT_texture_dds",
+                                         "KHR_lights_punctual",        "KHR_materials_pbrSpecularGlossiness"};
+    if (document.is_object()) {
+        document.erase("extras");
+        const auto extensions = document.find("extensions");
+        if (extensions != document.end() && extensions->is_object())
+            for (auto entry = extensions->begin(); entry != extensions->end();)
+                entry = std::find(std::begin(read), std::end(read), entry.key()) == std::end(read)
+                            ? extensions->erase(entry)
+                            : std::next(entry);
+    }
+    if (document.is_structured())
+        for (Json& member : document) remove_unread(member);
 }
 
 void check_scene_schema(Json& document, const Context& context) {

@@ -19,6 +19,13 @@ bool is_one_of(std::string_view words, std::string_view word);
 // as 1.0 become integers. Throws Error(invalid_data) with the place of the first defect.
 void check_schema(Json& document, const Context& context);
 
+// Throws Error(invalid_data) for more objects than a real document has: each takes up to a kilobyte, whatever
+// it says. The document may be any JSON.
+void check_counts(const Json& document, const Context& context);
+
+// Takes out what nobody reads but tinygltf would keep in memory: "extras" and unknown extensions.
+void remove_unread(Json& document);
+
 // The same for cameras and KHR_lights_punctual, which only a scene needs; the document passed check_schema.
 // The indices of lights remain to be checked.
 void check_scene_schema(Json& document, const Context& context);

@@ -64,7 +64,7 @@ std::vector<Vec3f> read_channels(ImageInput& input, const Channels& channels, co
 
 LinearPicture decode(std::span<const std::byte> bytes, const std::string& name,
                      std::span<const std::string_view> layers, const Limits& limits) {
-    ImageInput input(bytes, name, limits);
+    ImageInput input(bytes, name, ImageUse::picture, limits);
     LinearPicture picture;
     picture.width = std::uint32_t(input.spec().width);
     picture.height = std::uint32_t(input.spec().height);

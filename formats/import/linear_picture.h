@@ -29,13 +29,13 @@ struct LinearPicture {
 };
 
 // Reads the channels R, G and B, or the one channel of a grey picture, and those of `layers` that the file
-// has ("indirect": the channels indirect.R, indirect.G and indirect.B). Any format that OpenImageIO reads
-// from memory: whole numbers are taken as sRGB codes, floats as linear light. Alpha is not looked at, and of
+// has ("indirect": the channels indirect.R, indirect.G and indirect.B). PNG, JPEG, WebP, BMP, TGA, TIFF
+// or OpenEXR: whole numbers are taken as sRGB codes, floats as linear light. Alpha is not looked at, and of
 // several pictures in a file the first is taken. Values are as they are stored, NaN and infinity included.
 // Safe for untrusted input: sizes are checked before pixels are allocated. Throws Error: input_output if the
 // file cannot be read, invalid_data if it is no picture, has no colour or more than limits.texture_pixels
-// pixels, unsupported for a format that OpenImageIO was built without. Every message starts with the path.
-// O(pixels * (1 + layers)) in memory.
+// pixels, unsupported for another format or one that OpenImageIO was built without. Every message starts with
+// the path. O(pixels * (1 + layers)) in memory.
 LinearPicture read_picture(const std::filesystem::path& path, std::span<const std::string_view> layers = {},
                            const Limits& limits = {});
 

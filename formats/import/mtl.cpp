@@ -121,6 +121,7 @@ std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& nam
         const Context context{name, lines.line, report};
         const auto is = [&](std::string_view word) { return equal_ignoring_case(keyword, word); };
         if (is("newmtl")) {
+            if (materials.size() > max_materials) break;
             materials.emplace_back();
             materials.back().name = trim(rest);
             materials.back().line = lines.line;

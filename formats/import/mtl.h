@@ -31,7 +31,9 @@ struct MtlMaterial {
 
 // Reads newmtl, Kd, d, Tr, map_Kd and map_d (any case); everything else says how a surface reflects, not what
 // colour it has, and is passed over. Numbers that cannot be read, and Kd as a spectrum or in XYZ, are left
-// out with a warning in `report` that begins with `name`, the library's name as referenced. O(size).
+// out with a warning in `report` that begins with `name`, the library's name as referenced. Stops after
+// max_materials + 1 materials, which is one too many. O(size).
+inline constexpr std::size_t max_materials = std::size_t{1} << 16U;
 std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& name, Report& report);
 
 } // namespace spa::import

@@ -160,7 +160,7 @@ private:
         if (count < 3)
             fail(path_, line_, "a face needs at least three vertices, here are " + std::to_string(count));
         if (nodes_ != nullptr) nodes_->add_polygon(soup_);
-        soup_.polygons.push_back({count, material_});
+        add_polygon(soup_, {count, material_}, path_, limits_);
         lines_.push_back(line_);
     }
 
@@ -322,7 +322,6 @@ private:
 Result read_obj(const Asset& asset, const Limits& limits) {
     Result result;
     result.report.format = "OBJ";
-    add_source(result.report, asset);
     PolygonSoup soup = ObjParser(asset, limits, result.report, nullptr).parse(as_text(asset.file.bytes));
     result.model = to_model(std::move(soup), asset.path, limits, result.report);
     return result;
@@ -331,7 +330,6 @@ Result read_obj(const Asset& asset, const Limits& limits) {
 SceneResult read_obj_scene(const Asset& asset, const Limits& limits) {
     SceneResult result;
     result.report.format = "OBJ";
-    add_source(result.report, asset);
     ObjNodes nodes(asset.path);
     PolygonSoup soup = ObjParser(asset, limits, result.report, &nodes).parse(as_text(asset.file.bytes));
     result.scene.model =

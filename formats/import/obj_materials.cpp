@@ -12,35 +12,6 @@
 namespace spa::import {
 namespace {
 
-namespace fs = std::filesystem;
-
-// The entry of a folder with this name but for the case of letters; the smallest if there are several.
-std::optional<std::string> find_entry(const fs::path& folder, std::string_view name) {
-    std::optional<std::string> found;
-    std::error_code code;
-    for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
-        const std::string entry = it->path().filename().string();
-        if (equal_ignoring_case(entry, name) && (!found || entry < *found)) found = entry;
-    }
-    return found;
-}
-
-// The reference with the case of letters that its file has. Nothing if there is none.
-std::optional<Reference> find_file(const fs::path& asset, const Reference& reference) {
-    fs::path folder = asset.parent_path();
-    if (folder.empty()) folder = ".";
-    std::string name;
-    for (std::size_t begin = 0; begin <= reference.name.size();) {
-        const std::size_t end = std::min(reference.name.find('/', begin), reference.name.size());
-        const auto entry = find_entry(folder, std::string_view(reference.name).substr(begin, end - begin));
-        if (!entry) return std::nullopt;
-        name += (name.empty() ? "" : "/") + *entry;
-        folder /= *entry;
-        begin = end + 1;
-    }
-    return Reference{name, folder};
-}
-
 std::string folder_of(const std::string& name) { return name.substr(0, name.rfind('/') + 1); }
 
 bool is_translucent(const Texture& texture) {
@@ -54,16 +25,8 @@ std::uint8_t opacity(const std::array<std::uint8_t, 4>& pixel, bool use_alpha) {
     return std::uint8_t((2126U * pixel[0] + 7152U * pixel[1] + 722U * pixel[2] + 5000U) / 10000U);
 }
 
-// The colour of one picture and the opacity of another as one texture of the larger width and height.
-Texture combine(const Texture& color, const Texture& dissolve) {
-    const Image& a = color.mips[0];
-    const Image& b = dissolve.mips[0];
-    const bool use_alpha = is_translucent(dissolve);
-    Texture texture;
-    texture.name = color.name == dissolve.name ? color.name : color.name + " + " + dissolve.name;
-    Image& out = texture.mips.emplace_back();
-    out.width = std::max(a.width, b.width);
-    out.height = std::max(a.height, b.height);
+// The colour of one picture and the opacity of another as one texture of the size of `out`.
+void combine_pixels(const Image& a, const Image& b, bool use_alpha, Image& out) {
     out.pixels.resize(std::size_t{out.width} * out.height);
     for (std::uint32_t y = 0; y < out.height; ++y) {
         for (std::uint32_t x = 0; x < out.width; ++x) {
@@ -77,8 +40,6 @@ Texture combine(const Texture& color, const Texture& dissolve) {
             out.pixels[std::size_t{y} * out.width + x] = pixel;
         }
     }
-    build_mips(texture);
-    return texture;
 }
 
 Texture white_texture(const Texture& dissolve) {
@@ -94,26 +55,30 @@ Texture white_texture(const Texture& dissolve) {
 std::optional<ObjMaterials::FoundFile> ObjMaterials::read(std::string_view text) {
     const Reference reference = resolve_reference(asset_.path, text, Encoding::file_name);
     std::string name = reference.name;
-    std::optional<FileContent> content = read_reference(asset_, reference, limits_);
+    std::optional<FileContent> content = references_.read(reference);
     if (!content) {
-        const std::optional<Reference> found = find_file(asset_.path, reference);
-        if (found) {
-            name = found->name;
-            content = read_reference(asset_, *found, limits_);
+        // With a file of that very name the result would be another.
+        references_.add_missing(reference.name);
+        if (const std::optional<std::string> found = any_case_.find(reference.name)) {
+            name = *found;
+            content = references_.read({name, asset_.path.parent_path() / name});
         }
     }
-    if (!content) {
-        add_missing(report_, reference.name);
-        return std::nullopt;
-    }
-    add_source(report_, name, *content);
+    if (!content) return std::nullopt;
     return FoundFile{std::move(name), std::move(*content)};
 }
 
 bool ObjMaterials::read_library(std::string_view reference) {
+    const auto known = libraries_.find(reference);
+    if (known != libraries_.end()) return known->second;
     const auto found = read(reference);
+    libraries_.emplace(reference, found.has_value());
     if (!found) return false;
-    for (MtlMaterial& material : parse_mtl(as_text(found->content.bytes), found->name, report_)) {
+    std::vector<MtlMaterial> materials = parse_mtl(as_text(found->content.bytes), found->name, report_);
+    if (materials.size() + materials_.size() > max_materials)
+        fail(asset_.path,
+             "its material libraries have more than " + std::to_string(max_materials) + " materials");
+    for (MtlMaterial& material : materials) {
         const std::string name = material.name;
         materials_.try_emplace(name, Found{std::move(material), found->name});
     }
@@ -141,10 +106,30 @@ std::optional<Texture> ObjMaterials::load(const std::optional<MtlMap>& map, cons
         return std::nullopt;
     }
     try {
-        return read_texture(file->content.bytes, file->name, limits_);
+        return budget_.decode_part(file->content.bytes, file->name);
     } catch (const Error& error) {
         throw Error(error.code(), asset_.path.string() + ": " + where + ": " + error.what());
     }
+}
+
+Texture ObjMaterials::combine(std::optional<Texture> color, const std::optional<Texture>& dissolve) {
+    if (!dissolve) {
+        budget_.claim(color->mips[0].width, color->mips[0].height, color->name);
+        return std::move(*color);
+    }
+    const Texture white = white_texture(*dissolve);
+    const Texture& a = color ? *color : white;
+    const Image& from = a.mips[0];
+    const Image& alpha = dissolve->mips[0];
+    Texture texture;
+    texture.name = a.name == dissolve->name ? a.name : a.name + " + " + dissolve->name;
+    Image& out = texture.mips.emplace_back();
+    out.width = std::max(from.width, alpha.width);
+    out.height = std::max(from.height, alpha.height);
+    budget_.claim(out.width, out.height, texture.name);
+    combine_pixels(from, alpha, is_translucent(*dissolve), out);
+    build_mips(texture);
+    return texture;
 }
 
 ObjMaterials::MadeTexture ObjMaterials::make_texture(const Found& found, std::vector<Texture>& textures) {
@@ -156,11 +141,15 @@ ObjMaterials::MadeTexture ObjMaterials::make_texture(const Found& found, std::ve
     std::optional<Texture> color = load(color_map, found);
     const std::optional<Texture> dissolve = load(dissolve_map, found);
     MadeTexture made;
-    if (dissolve) color = combine(color ? *color : white_texture(*dissolve), *dissolve);
-    if (color) {
+    if (color || dissolve) {
         made.index = std::uint32_t(textures.size());
-        made.blends = dissolve.has_value() || is_translucent(*color);
-        textures.push_back(std::move(*color));
+        try {
+            textures.push_back(combine(std::move(color), dissolve));
+        } catch (const Error& error) {
+            throw Error(error.code(), asset_.path.string() + ": material " + quote(found.material.name) +
+                                          " of " + found.library + ": " + error.what());
+        }
+        made.blends = dissolve.has_value() || is_translucent(textures.back());
     }
     made_.emplace(key, made);
     return made;

@@ -2,11 +2,14 @@
 // From the statements of a material library to the materials and textures of a Model.
 #pragma once
 
+#include "any_case.h"
 #include "import.h"
 #include "mtl.h"
 #include "polygon_soup.h"
 #include "source_file.h"
+#include "texture.h"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -39,10 +42,12 @@ struct ObjMaterial {
 class ObjMaterials {
 public:
     ObjMaterials(const Asset& asset, const Limits& limits, Report& report)
-        : asset_(asset), limits_(limits), report_(report) {}
+        : asset_(asset), report_(report), references_(asset, limits, report), budget_(limits),
+          any_case_(asset.path.parent_path()) {}
 
     // The rest of a mtllib statement: one file name with or without blanks, or several. The first material of
-    // a name counts. A missing library is a warning. Throws Error for a reference that leaves the folder.
+    // a name counts. A missing library is a warning. Throws Error for a reference that leaves the folder and
+    // for more than max_materials.
     void read_libraries(std::string_view statement, std::size_t line);
 
     // The material of this name, white with a warning if no library has it. Its texture is appended to
@@ -67,12 +72,18 @@ private:
     };
     std::optional<FoundFile> read(std::string_view reference);
     bool read_library(std::string_view reference);
+    // A map of a material; nothing, with a warning, if it has none or its file is missing.
     std::optional<Texture> load(const std::optional<MtlMap>& map, const Found& found);
+    // Of a map_Kd and a map_d, of which one may be missing but not both.
+    Texture combine(std::optional<Texture> color, const std::optional<Texture>& dissolve);
     MadeTexture make_texture(const Found& found, std::vector<Texture>& textures);
 
     const Asset& asset_;
-    const Limits& limits_;
     Report& report_;
+    References references_;
+    TextureBudget budget_;
+    AnyCase any_case_;
+    std::map<std::string, bool, std::less<>> libraries_; // whether they are there, by reference
     std::map<std::string, Found> materials_;
     std::map<std::pair<std::string, std::string>, MadeTexture> made_; // by the files of map_Kd and map_d
 };

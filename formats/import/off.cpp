@@ -185,7 +185,7 @@ private:
             if (kind_.colors) corner.color = corner.position;
             soup_.corners.push_back(corner);
         }
-        soup_.polygons.push_back({std::uint32_t(corners), 0});
+        add_polygon(soup_, {std::uint32_t(corners), 0}, path_, limits_);
         const std::size_t words = count_words(rest_);
         if (kind_.colors || words < 3) return;
         for (std::size_t c = first; c < soup_.corners.size(); ++c)
@@ -218,7 +218,7 @@ private:
 Result read_off(const Asset& asset, const Limits& limits) {
     Result result;
     result.report.format = "OFF";
-    add_source(result.report, asset);
+    const References references(asset, limits, result.report);
     PolygonSoup soup = OffReader(as_text(asset.file.bytes), asset.path, limits, result.report).read();
     result.model = to_model(std::move(soup), asset.path, limits, result.report);
     return result;

@@ -88,7 +88,7 @@ Vec4f read_color(const Row& row, const ColorProperties& color) {
 class PlyReader {
 public:
     PlyReader(std::string_view text, const Asset& asset, const Limits& limits, Report& report)
-        : asset_(asset), path_(asset.path), limits_(limits), report_(report),
+        : path_(asset.path), limits_(limits), report_(report), references_(asset, limits, report),
           header_(parse_ply_header(text, path_)), data_(text, header_, path_) {}
 
     PolygonSoup read() {
@@ -266,7 +266,8 @@ private:
             }
             const double number = texture ? row.values[*texture] : 0;
             const bool known = number >= 0 && number < double(header_.textures.size());
-            soup_.polygons.push_back({std::uint32_t(list_.size()), known ? std::uint32_t(number) : 0});
+            add_polygon(soup_, {std::uint32_t(list_.size()), known ? std::uint32_t(number) : 0}, path_,
+                        limits_);
         }
         if (report_.ignored_primitives > 0)
             warn(report_, "Passed over faces with fewer than three vertices: " +
@@ -295,7 +296,7 @@ private:
                     corner.position = vertex;
                     soup_.corners.push_back(corner);
                 }
-                soup_.polygons.push_back({3, 0});
+                add_polygon(soup_, {3, 0}, path_, limits_);
             }
         }
     }
@@ -314,16 +315,15 @@ private:
             Material material;
             material.name = name;
             const Reference reference = resolve_reference(path_, name, Encoding::file_name);
-            if (const auto content = read_reference(asset_, reference, limits_)) {
-                add_source(report_, reference.name, *content);
+            if (const auto content = references_.read(reference)) {
                 try {
-                    soup_.textures.push_back(read_texture(content->bytes, reference.name, limits_));
+                    soup_.textures.push_back(budget_.decode(content->bytes, reference.name));
                 } catch (const Error& error) {
                     throw Error(error.code(), path_.string() + ": texture " + error.what());
                 }
                 material.texture = std::uint32_t(soup_.textures.size() - 1);
             } else {
-                add_missing(report_, reference.name);
+                references_.add_missing(reference.name);
                 warn(report_, "The texture " + quote(name) + " is missing; the material goes without it.");
             }
             soup_.materials.push_back(std::move(material));
@@ -370,10 +370,11 @@ private:
         }
     }
 
-    const Asset& asset_;
     const std::filesystem::path& path_;
     const Limits& limits_;
     Report& report_;
+    References references_;
+    TextureBudget budget_{limits_};
     PlyHeader header_;
     PlyData data_;
     PolygonSoup soup_;
@@ -388,7 +389,6 @@ private:
 Result read_ply(const Asset& asset, const Limits& limits) {
     Result result;
     result.report.format = "PLY";
-    add_source(result.report, asset);
     PolygonSoup soup = PlyReader(as_text(asset.file.bytes), asset, limits, result.report).read();
     result.model = to_model(std::move(soup), asset.path, limits, result.report);
     return result;

@@ -38,15 +38,6 @@ bool has_area(const PolygonSoup& soup, const CornerTriangle& triangle) {
     return !(cross(position(1) - position(0), position(2) - position(0)) == Vec3d{});
 }
 
-void check_triangle_count(const PolygonSoup& soup, const std::filesystem::path& path, const Limits& limits) {
-    std::uint64_t count = 0;
-    for (const Polygon& polygon : soup.polygons) count += polygon.corners - 2;
-    const std::uint64_t most = std::min(limits.triangles, most_triangles);
-    if (count > most)
-        fail(path, "has " + count_of(count, "triangle") + ", more than the " + std::to_string(most) +
-                       " allowed; simplify the mesh or raise the limit");
-}
-
 Cut cut_polygons(const PolygonSoup& soup, Report& report) {
     Cut cut;
     cut.triangles.reserve(soup.polygons.size());
@@ -153,6 +144,16 @@ Repairs index_vertices(Model& model, const PolygonSoup& soup, const Cut& cut) {
     return repairs;
 }
 
+void check_bytes(const Model& model, const std::vector<Texture>& textures, const std::filesystem::path& path,
+                 const Limits& limits) {
+    std::uint64_t bytes = model.positions.size() * vertex_bytes + model.triangles.size() * triangle_bytes;
+    for (const Texture& texture : textures)
+        for (const Image& image : texture.mips) bytes += image.pixels.size() * sizeof image.pixels[0];
+    if (bytes > limits.model_bytes)
+        fail(path, "makes a model of " + std::to_string(bytes) + " bytes, more than the limit of " +
+                       std::to_string(limits.model_bytes) + "; simplify the mesh");
+}
+
 void warn_of(const Cut& cut, const Repairs& repairs, Report& report) {
     if (report.dropped_non_finite > 0)
         warn(report, "Dropped " + count_of(report.dropped_non_finite, "triangle") +
@@ -181,15 +182,30 @@ Vec4f display_to_linear(Vec4f color) {
 }
 
 void check_vertex_count(std::uint64_t count, const std::filesystem::path& path, const Limits& limits) {
-    const std::uint64_t most = std::min(limits.vertices, std::uint64_t{no_index} - 1);
+    const std::uint64_t most =
+        std::min({limits.vertices, std::uint64_t{no_index} - 1, limits.model_bytes / vertex_bytes});
     if (count > most)
         fail(path, "has more than the " + std::to_string(most) +
                        " vertices allowed; simplify the mesh or raise the limit");
 }
 
+void check_triangle_count(std::uint64_t count, const std::filesystem::path& path, const Limits& limits) {
+    const std::uint64_t most =
+        std::min({limits.triangles, most_triangles, limits.model_bytes / triangle_bytes});
+    if (count > most)
+        fail(path, "has more than the " + std::to_string(most) +
+                       " triangles allowed; simplify the mesh or raise the limit");
+}
+
+void add_polygon(PolygonSoup& soup, const Polygon& polygon, const std::filesystem::path& path,
+                 const Limits& limits) {
+    soup.triangles += polygon.corners - 2;
+    check_triangle_count(soup.triangles, path, limits);
+    soup.polygons.push_back(polygon);
+}
+
 Model to_model(PolygonSoup soup, const std::filesystem::path& path, const Limits& limits, Report& report,
                std::vector<std::uint32_t>* triangle_nodes) {
-    check_triangle_count(soup, path, limits);
     Cut cut = cut_polygons(soup, report);
     if (cut.triangles.empty()) {
         std::string what = "nothing to bake: ";
@@ -207,6 +223,7 @@ Model to_model(PolygonSoup soup, const std::filesystem::path& path, const Limits
     Model model;
     const Repairs repairs = index_vertices(model, soup, cut);
     check_vertex_count(model.positions.size(), path, limits);
+    check_bytes(model, soup.textures, path, limits);
     warn_of(cut, repairs, report);
     model.triangle_materials = std::move(cut.materials);
     if (triangle_nodes != nullptr)
@@ -217,6 +234,7 @@ Model to_model(PolygonSoup soup, const std::filesystem::path& path, const Limits
     report.computed_normals =
         std::find(model.normals.begin(), model.normals.end(), Vec3f{}) != model.normals.end() ||
         model.normals.empty();
+    soup = {}; // what follows takes as much memory again
     compute_normals(model);
     return model;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "import.h"
+#include "readers.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -38,7 +39,8 @@ struct PolygonSoup {
     std::vector<Vec3f> normals;   // of any length; zero = missing
     std::vector<Vec4f> colors;    // linear
     std::vector<PolygonCorner> corners;
-    std::vector<Polygon> polygons;
+    std::vector<Polygon> polygons;   // by add_polygon
+    std::uint64_t triangles = 0;     // that the polygons make
     std::vector<PolygonRun> runs;    // in the order of the polygons; empty where nobody asks for nodes
     std::vector<Material> materials; // at least one
     std::vector<Texture> textures;
@@ -51,8 +53,13 @@ float display_to_linear(float value);
 // The same for red, green and blue; alpha is linear already and only clamped.
 Vec4f display_to_linear(Vec4f color);
 
-// Throws Error(invalid_data) if a model cannot hold as many vertices; readers ask before they grow an array.
+// Throw Error(invalid_data) if a model cannot hold as many; readers ask before they grow an array.
 void check_vertex_count(std::uint64_t count, const std::filesystem::path& path, const Limits& limits);
+void check_triangle_count(std::uint64_t count, const std::filesystem::path& path, const Limits& limits);
+
+// Appends a polygon, whose corners are the last ones, unless that makes too many triangles.
+void add_polygon(PolygonSoup& soup, const Polygon& polygon, const std::filesystem::path& path,
+                 const Limits& limits);
 
 // Cuts the polygons into triangles, drops and counts those with a NaN or infinite corner and those without
 // area, makes one vertex of equal corners, normalises the normals and computes the missing ones. Vertices are

@@ -7,6 +7,7 @@
 #include "source_file.h"
 
 #include <cstddef>
+#include <cstdint>
 
 namespace spa::import {
 
@@ -23,6 +24,10 @@ Result read_off(const Asset& asset, const Limits& limits);
 // What beside the model has nodes.
 SceneResult read_gltf_scene(const Asset& asset, const Limits& limits);
 SceneResult read_obj_scene(const Asset& asset, const Limits& limits);
+
+// What a vertex and a triangle of a model take at most, by which limits.model_bytes is counted: position,
+// normal, uv and colour; indices, material and node.
+inline constexpr std::uint64_t vertex_bytes = 48, triangle_bytes = 20;
 
 // What shared children, instances, objects and groups may make of a file.
 inline constexpr std::size_t max_nodes = std::size_t{1} << 20U;

@@ -64,23 +64,6 @@ FileContent read_file(const std::filesystem::path& path, const Limits& limits, s
     return read_content(*file, path, most, limits);
 }
 
-void add_source(Report& report, std::string name, const FileContent& file) {
-    if (std::any_of(report.files.begin(), report.files.end(),
-                    [&](const SourceFile& known) { return known.name == name; }))
-        return;
-    report.files.push_back(
-        {std::move(name), file.bytes.size(), XXH3_64bits(file.bytes.data(), file.bytes.size()), file.state});
-}
-
-void add_source(Report& report, const Asset& asset) {
-    add_source(report, asset.path.filename().string(), asset.file);
-}
-
-void add_missing(Report& report, const std::string& name) {
-    if (std::find(report.missing.begin(), report.missing.end(), name) == report.missing.end())
-        report.missing.push_back(name);
-}
-
 void add_warning(Report& report, std::string warning) {
     if (report.warnings.size() > max_warnings) return;
     if (std::find(report.warnings.begin(), report.warnings.end(), warning) != report.warnings.end()) return;
@@ -137,14 +120,54 @@ Reference resolve_reference(const std::filesystem::path& asset, std::string_view
     return result;
 }
 
-std::optional<FileContent> read_reference(const Asset& asset, const Reference& reference,
-                                          const Limits& limits, std::uint64_t most) {
+References::References(const Asset& asset, const Limits& limits, Report& report)
+    : asset_(asset), limits_(limits), report_(report), bytes_(asset.file.bytes.size()) {
+    add_source(asset.path.filename().string(), asset.file);
+}
+
+std::optional<FileContent> References::read(const Reference& reference) {
+    std::optional<FileContent> content = read(reference, whole_file);
+    if (content) add_source(reference.name, *content);
+    return content;
+}
+
+std::optional<FileContent> References::read_head(const Reference& reference, std::uint64_t most) {
+    return read(reference, most);
+}
+
+std::optional<FileContent> References::read(const Reference& reference, std::uint64_t most) {
     const std::optional<OpenFile> file = OpenFile::open(reference.path);
     if (!file) return std::nullopt;
-    if (!limits.follow_links && !is_inside(file->real_path(), asset.real_folder))
-        refuse(asset.path, reference.name,
+    if (!limits_.follow_links && !is_inside(file->real_path(), asset_.real_folder))
+        refuse(asset_.path, reference.name,
                "is a symbolic link to another place, which only --follow-links allows");
-    return read_content(*file, reference.path, most, limits);
+    bytes_ += std::min(most, file->state().size);
+    if (bytes_ > limits_.total_bytes)
+        throw Error(ExitCode::input_output, asset_.path.string() + ": reads more than the limit of " +
+                                                std::to_string(limits_.total_bytes) +
+                                                " bytes from all files that it refers to");
+    return read_content(*file, reference.path, most, limits_);
+}
+
+void References::check_count() const {
+    if (report_.files.size() + report_.missing.size() > max_references)
+        throw Error(ExitCode::invalid_data, asset_.path.string() + ": refers to more than " +
+                                                std::to_string(max_references) + " files");
+}
+
+void References::add_source(std::string name, const FileContent& file) {
+    if (std::any_of(report_.files.begin(), report_.files.end(),
+                    [&](const SourceFile& known) { return known.name == name; }))
+        return;
+    report_.files.push_back(
+        {std::move(name), file.bytes.size(), XXH3_64bits(file.bytes.data(), file.bytes.size()), file.state});
+    check_count();
+}
+
+void References::add_missing(const std::string& name) {
+    if (std::find(report_.missing.begin(), report_.missing.end(), name) != report_.missing.end()) return;
+    report_.missing.push_back(name);
+    check_count();
 }
 
 } // namespace spa::import

@@ -35,13 +35,6 @@ struct Asset {
     std::filesystem::path real_folder; // of the path, symbolic links resolved; references stay inside
 };
 
-// Appends the record of a file unless one of the same name is already there.
-void add_source(Report& report, std::string name, const FileContent& file);
-void add_source(Report& report, const Asset& asset);
-
-// Appends the name unless it is already there.
-void add_missing(Report& report, const std::string& name);
-
 // Appends the warning unless the same text is already there. A report holds so many and then a line that says
 // that there are more: a damaged file can give one for each of its bytes.
 inline constexpr std::size_t max_warnings = 100;
@@ -63,11 +56,37 @@ enum class Encoding { uri, file_name };
 Reference resolve_reference(const std::filesystem::path& asset, std::string_view reference,
                             Encoding encoding);
 
-// The content of the file that a reference leads to, or its first `most` bytes; nothing if there is no such
-// file. Throws Error: invalid_data if symbolic links lead out of the asset's folder and limits.follow_links
-// is not set, input_output as read_file does.
-std::optional<FileContent> read_reference(const Asset& asset, const Reference& reference,
-                                          const Limits& limits, std::uint64_t most = whole_file);
+// How many different files an asset may refer to.
+inline constexpr std::size_t max_references = 16384;
+
+// The files that an asset refers to, as they are read.
+class References {
+public:
+    // Records the asset as the first source. All arguments outlive this.
+    References(const Asset& asset, const Limits& limits, Report& report);
+
+    // The content of the file that a reference leads to, which is recorded as a source; nothing if there is
+    // no such file. Throws Error: invalid_data if symbolic links lead out of the asset's folder and
+    // limits.follow_links is not set and for more than max_references files, input_output as read_file does
+    // and when more than limits.total_bytes are read in all.
+    std::optional<FileContent> read(const Reference& reference);
+
+    // The same of the first `most` bytes of a file that is no source.
+    std::optional<FileContent> read_head(const Reference& reference, std::uint64_t most);
+
+    // Records a name under which there is no file.
+    void add_missing(const std::string& name);
+
+private:
+    std::optional<FileContent> read(const Reference& reference, std::uint64_t most);
+    void add_source(std::string name, const FileContent& file);
+    void check_count() const;
+
+    const Asset& asset_;
+    const Limits& limits_;
+    Report& report_;
+    std::uint64_t bytes_; // read so far
+};
 
 // %41 becomes 'A'; a '%' that starts no escape stands for itself.
 std::string percent_decode(std::string_view text);

@@ -63,7 +63,7 @@ void read_binary(std::string_view text, PolygonSoup& soup, const std::filesystem
             const std::size_t p = at + 12 * k;
             add_corner(soup, {load_float(text, p), load_float(text, p + 4), load_float(text, p + 8)});
         }
-        soup.polygons.push_back({3, 0});
+        add_polygon(soup, {3, 0}, path, limits);
     }
 }
 
@@ -128,7 +128,7 @@ private:
             fail(path_, tokens_.lines.line,
                  "a facet needs three vertices, here are " + std::to_string(count));
         expect("endfacet");
-        soup.polygons.push_back({count, 0});
+        add_polygon(soup, {count, 0}, path_, limits_);
     }
 
     const std::filesystem::path& path_;
@@ -149,7 +149,7 @@ Result read_stl(const Asset& asset, const Limits& limits) {
                                 asset.file.bytes.size());
     Result result;
     result.report.format = "STL";
-    add_source(result.report, asset);
+    const References references(asset, limits, result.report);
     PolygonSoup soup;
     soup.materials.emplace_back();
     soup.materials[0].name = "default";

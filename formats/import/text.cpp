@@ -110,6 +110,16 @@ std::string quote(std::string_view text) {
     return result;
 }
 
+std::string shorten(std::string message) {
+    constexpr std::size_t longest = 1000;
+    if (message.size() <= longest) return message;
+    message.resize(longest);
+    while (!message.empty() && (static_cast<unsigned char>(message.back()) & 0xC0U) == 0x80)
+        message.pop_back();
+    if (!message.empty() && static_cast<unsigned char>(message.back()) >= 0xC0) message.pop_back();
+    return message + "...";
+}
+
 void fail(const std::filesystem::path& path, const std::string& what) {
     throw Error(ExitCode::invalid_data, path.string() + ": " + what);
 }

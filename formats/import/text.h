@@ -57,6 +57,9 @@ std::optional<std::int64_t> parse_integer(std::string_view token);
 // A piece of the file for a message: in quotes, control characters replaced, cut after 60 characters.
 std::string quote(std::string_view text);
 
+// A message that repeats what the file holds, cut after a thousand bytes.
+std::string shorten(std::string message);
+
 // Throw Error(invalid_data, "PATH: what") and "PATH: line LINE: what".
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what);
 [[noreturn]] void fail(const std::filesystem::path& path, std::size_t line, const std::string& what);

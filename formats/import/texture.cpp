@@ -56,7 +56,7 @@ Texture read_texture(std::span<const std::byte> bytes, const std::string& name, 
     Texture texture;
     texture.name = name;
     try {
-        ImageInput input(bytes, name, limits);
+        ImageInput input(bytes, name, ImageUse::texture, limits);
         Image image;
         image.width = static_cast<std::uint32_t>(input.spec().width);
         image.height = static_cast<std::uint32_t>(input.spec().height);
@@ -69,6 +69,41 @@ Texture read_texture(std::span<const std::byte> bytes, const std::string& name, 
     }
     build_mips(texture);
     return texture;
+}
+
+namespace {
+
+// All levels, each a quarter of the one before; a row or column halves.
+std::uint64_t bytes_of(std::uint64_t width, std::uint64_t height) {
+    const std::uint64_t pixels = width * height;
+    return sizeof(Pixel) * (width == 1 || height == 1 ? 2 * pixels : pixels + pixels / 3 + 1);
+}
+
+} // namespace
+
+Limits TextureBudget::left() const {
+    Limits limits = limits_;
+    const std::uint64_t bytes = limits.model_bytes - std::min(spent_, limits.model_bytes);
+    limits.texture_pixels = std::min(limits.texture_pixels, bytes / sizeof(Pixel) / 4 * 3);
+    return limits;
+}
+
+Texture TextureBudget::decode_part(std::span<const std::byte> bytes, const std::string& name) const {
+    return read_texture(bytes, name, left());
+}
+
+Texture TextureBudget::decode(std::span<const std::byte> bytes, const std::string& name) {
+    Texture texture = decode_part(bytes, name);
+    spend(bytes_of(texture.mips[0].width, texture.mips[0].height));
+    return texture;
+}
+
+void TextureBudget::claim(std::uint32_t width, std::uint32_t height, const std::string& name) {
+    const std::uint64_t most = left().texture_pixels;
+    if (std::uint64_t{width} * height > most)
+        fail_image(name, "it makes a texture of " + std::to_string(width) + " x " + std::to_string(height) +
+                             " pixels, more than the limit of " + std::to_string(most));
+    spend(bytes_of(width, height));
 }
 
 } // namespace spa::import

@@ -63,7 +63,8 @@ TEST(ShardArgument, SlurmArraysOfAnyNumbering) {
     EXPECT_NE(refusal("auto", task("11", "10", "10")).find("SLURM_ARRAY_TASK_ID"), std::string::npos);
     // An array with gaps, such as 1,2,7,9, has numbers beyond its count.
     EXPECT_NE(refusal("auto", task("9", "1", "1")).find("9 is more than 4"), std::string::npos);
-    EXPECT_NE(refusal("auto", {{"SLURM_ARRAY_TASK_ID", "1"}}).find("SLURM_ARRAY_TASK_COUNT"), std::string::npos);
+    EXPECT_NE(refusal("auto", {{"SLURM_ARRAY_TASK_ID", "1"}}).find("SLURM_ARRAY_TASK_COUNT"),
+              std::string::npos);
 }
 
 TEST(ShardArgument, KubernetesNeedsTheCount) {
@@ -88,7 +89,8 @@ TEST(MemoryArgument, SizesWithUnits) {
     EXPECT_EQ(parse_byte_count("--memory", "1T"), std::uint64_t(1) << 40U);
     EXPECT_EQ(parse_byte_count("--memory", "4K"), 4096U);
     EXPECT_EQ(parse_byte_count("--memory", "123"), 123U);
-    for (const char* text : {"", "0", "8GB", "G", "-1", "1.5G", "99999999999T", " 1G", "18446744073709551616"})
+    for (const char* text :
+         {"", "0", "8GB", "G", "-1", "1.5G", "99999999999T", " 1G", "18446744073709551616"})
         EXPECT_THROW(parse_byte_count("--memory", text), Error) << text;
 }
 

@@ -48,8 +48,8 @@ protected:
 };
 
 TEST_F(FindAssets, AllFormatsAtAnyDepthInOrder) {
-    for (const char* name : {"z.obj", "props/boot.glb", "props/boot.bin", "a/b/c/d.STL", "B.gltf", "x.ply", "y.off",
-                             "readme.txt", "x.mtl", ".hidden/h.obj", "obj"})
+    for (const char* name : {"z.obj", "props/boot.glb", "props/boot.bin", "a/b/c/d.STL", "B.gltf", "x.ply",
+                             "y.off", "readme.txt", "x.mtl", ".hidden/h.obj", "obj"})
         make(name);
     const AssetList list = find_assets(query());
     EXPECT_EQ(names(list),
@@ -62,8 +62,8 @@ TEST_F(FindAssets, AllFormatsAtAnyDepthInOrder) {
 
 TEST_F(FindAssets, SameStemKeepsTheWholeName) {
     for (const char* name : {"a.obj", "a.glb", "b.obj", "x/a.obj", "a.glb.ply"}) make(name);
-    EXPECT_EQ(outputs(find_assets(query())), (Names{"out/a.glb.spa", "out/a.glb.ply.spa", "out/a.obj.spa",
-                                                    "out/b.spa", "out/x/a.spa"}));
+    EXPECT_EQ(outputs(find_assets(query())),
+              (Names{"out/a.glb.spa", "out/a.glb.ply.spa", "out/a.obj.spa", "out/b.spa", "out/x/a.spa"}));
     AssetQuery one = query();
     one.include = {"/a.obj"};
     EXPECT_EQ(outputs(find_assets(one)), Names{"out/a.obj.spa"}) << "a pattern changes the name of an output";
@@ -207,7 +207,8 @@ TEST_F(FindAssets, ShardsAreAPartitionThatNewAssetsDoNotChange) {
     std::set<std::string> together;
     for (const auto& share : before) {
         EXPECT_GT(share.size(), 10U); // of 25 on average; all names are given, so this does not change
-        for (const std::string& name : share) EXPECT_TRUE(together.insert(name).second) << name << " is in two";
+        for (const std::string& name : share)
+            EXPECT_TRUE(together.insert(name).second) << name << " is in two";
     }
     EXPECT_EQ(together.size(), 100U);
     make("a00.obj");

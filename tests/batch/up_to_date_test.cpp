@@ -7,6 +7,7 @@
 #include "../cli/process.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -41,8 +42,8 @@ protected:
         const Outcome outcome = run_spa(arguments, folder_.path());
         ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     }
-    // As if the sources were an hour old: their times can be trusted. (That of the inode cannot be set; where it
-    // is too young nothing is remembered, which these tests then work around.)
+    // As if the sources were an hour old: their times can be trusted. (That of the inode cannot be set; where
+    // it is too young nothing is remembered, which these tests then work around.)
     void age() const {
         for (const fs::path& path : {asset(), library()})
             fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours(1));
@@ -180,7 +181,8 @@ TEST_F(UpToDate, RenamedAssetIsAnother) {
     fs::rename(asset(), folder_.path() / "b.obj");
     BakeSettings settings;
     settings.options.grid = settings.options.color_grid = {Mapping::octahedral, 9, 9};
-    EXPECT_EQ(tools::judge_map(map(), folder_.path() / "b.obj", settings, anything).reason, BakeReason::sources);
+    EXPECT_EQ(tools::judge_map(map(), folder_.path() / "b.obj", settings, anything).reason,
+              BakeReason::sources);
 }
 
 // What is remembered of the sources' state spares reading them, and nothing else.

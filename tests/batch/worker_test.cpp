@@ -127,7 +127,8 @@ TEST(Worker, MemoryBeyondTheLimitIsRefused) {
 TEST(Worker, ManyAtOnce) {
     WorkerPool pool;
     for (std::size_t i = 0; i < 20; ++i)
-        pool.start(i, [i] { return std::string(i * 10'000, char('a' + i)); }, roomy);
+        pool.start(
+            i, [i] { return std::string(i * 10'000, char('a' + i)); }, roomy);
     EXPECT_EQ(pool.running(), 20U);
     std::map<std::size_t, std::string> results;
     while (pool.running() > 0)

@@ -68,7 +68,7 @@ TEST_F(Crash, IsReportedAfterASecondTry) {
     EXPECT_EQ(outcome.exit_code, 4);
     const nlohmann::json asset = failure(outcome);
     EXPECT_EQ(asset["signal"], "SIGSEGV");
-    EXPECT_EQ(asset["error"], "crashed (SIGSEGV)");
+    EXPECT_EQ(asset["error"], "in/slow.obj: crashed (SIGSEGV)");
 }
 
 TEST_F(Crash, OfABakeThatTheSystemKills) {
@@ -76,7 +76,8 @@ TEST_F(Crash, OfABakeThatTheSystemKills) {
     EXPECT_EQ(outcome.exit_code, 5);
     const nlohmann::json asset = failure(outcome);
     EXPECT_EQ(asset["signal"], "SIGKILL");
-    EXPECT_TRUE(says(asset["error"], "was killed (SIGKILL), as the system does when it is out of memory"));
+    EXPECT_TRUE(says(asset["error"],
+                     "in/slow.obj: was killed (SIGKILL), as the system does when it is out of memory"));
 }
 
 // Some programs ignore SIGCHLD, and what they start inherits that: then the system forgets how a process
@@ -93,7 +94,7 @@ TEST_F(Crash, OfABakeThatIsAskedToEnd) {
     EXPECT_TRUE(signal_child(process.id(), slow_bake(process), SIGTERM));
     const Outcome outcome = process.wait();
     EXPECT_EQ(outcome.exit_code, 4);
-    EXPECT_TRUE(says(failure(outcome)["error"], "was ended by somebody else (SIGTERM)"));
+    EXPECT_EQ(failure(outcome)["error"], "in/slow.obj: was ended by somebody else (SIGTERM)");
 }
 
 TEST_F(Crash, TooLong) {
@@ -101,7 +102,7 @@ TEST_F(Crash, TooLong) {
         run_spa(folder_.slow_batch({"--timeout", "1", "--report", "report.json"}), folder_.path());
     EXPECT_EQ(outcome.exit_code, 6);
     const nlohmann::json asset = failure(outcome);
-    EXPECT_EQ(asset["error"], "took longer than 1 s (--timeout)");
+    EXPECT_EQ(asset["error"], "in/slow.obj: took longer than 1 s (--timeout)");
     EXPECT_GE(asset["seconds"], 1);
     EXPECT_EQ(folder_.report()["timeout_seconds"], 1);
 }

@@ -46,7 +46,7 @@ TEST_P(InterruptBatch, EndsTheBakesAndSaysWhatIsLeft) {
     EXPECT_EQ(folder.report()["stopped_by"], "signal");
     for (const nlohmann::json& asset : folder.report()["assets"]) {
         EXPECT_EQ(asset["status"], "not_started");
-        EXPECT_EQ(asset["exit_code"], 0);
+        EXPECT_EQ(asset["exit_code"], nullptr);
         EXPECT_EQ(asset["error"], nullptr);
     }
     EXPECT_TRUE(says(read_file(folder.path() / "report.html"), "</html>"));

@@ -66,7 +66,7 @@ TEST(Texture, JpegKinds) {
         SCOPED_TRACE(entry.path());
         const Texture texture = read(entry.path());
         const auto bytes = import::read_file(entry.path(), {}).bytes;
-        const import::ImageHeader header = import::read_image_header(bytes);
+        const import::ImageHeader header = import::read_image_header(bytes, import::ImageKind::jpeg);
         EXPECT_EQ(texture.mips[0].width, header.width);
         EXPECT_EQ(texture.mips[0].height, header.height);
         for (const Pixel& p : texture.mips[0].pixels) ASSERT_EQ(p[3], 255);

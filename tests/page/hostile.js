@@ -52,7 +52,7 @@ probe.run(async () => {
     const cells = (name) => all('tr.row > td', body(name)).slice(2).map((cell) => cell.innerText.replaceAll('\u202f', ' '));
     equal('headers', all('th').map((cell) => cell.textContent), ['Source', 'Status', 'Triangles', 'Asset', 'Map',
         'Size × layers', 'p95 distance', 'Captured', 'False hits', 'Missed hits', 'Time', 'Memory', 'Notes']);
-    equal('cells of a map', cells('sub/folder/Large.glb'), ['✓ baked\nno map yet', '1 234 567', '1000 B', '1.9 MiB',
+    equal('cells of a map', cells('sub/folder/Large.glb'), ['✓ baked\nfirst map', '1 234 567', '1000 B', '1.9 MiB',
         '640×480 × 1', '0.05 R', '100.00 %', '10.000 %', '15.000 %', '0.50 s', '64.0 MiB', 'diagnostics']);
     equal('cells of a crash', cells('sub/folder/crash.off'),
         ['✕ failed', '', '', '', '', '', '', '', '', '', '', 'SIGSEGV']);

@@ -15,7 +15,7 @@
         up_to_date: { label: 'up to date', sign: '=' },
     };
     const reasons = {
-        new: 'no map yet',
+        new: 'first map',
         sources: 'sources changed',
         options: 'options changed',
         version: 'other version',
