@@ -3,6 +3,7 @@
 
 #include "bake_file.h"
 #include "failure.h"
+#include "interrupt.h"
 #include "map_file.h"
 #include "output.h"
 #include "picture.h"
@@ -62,11 +63,12 @@ void judge_and_bake(const ChildTask& task, AssetResult& result) {
         bake(task, result);
 }
 
-void fail(AssetResult& result) {
+// place: what the message does not say itself.
+void fail(AssetResult& result, const std::string& place = "") {
     const Failure failure = current_failure();
     result.status = AssetStatus::failed;
     result.exit_code = failure.code;
-    result.error = failure.message;
+    result.error = place + failure.message;
 }
 
 // A picture that cannot be made is not worth failing for.
@@ -83,18 +85,21 @@ std::vector<std::byte> picture_of(const std::filesystem::path& map) {
 std::string run_child(const ChildTask& task) {
     ChildOutcome outcome;
     AssetResult& result = outcome.result;
+    const std::string place = task.asset.path.string() + ": ";
     try {
         if (!task.is_current) judge_and_bake(task, result);
     } catch (const bake::Cancelled&) {
-        outcome.interrupted = true;
+        outcome.interrupt = interrupt_signal();
     } catch (const OutputError& error) {
         outcome.output_failed = error.concerns_all();
         fail(result);
+    } catch (const Error&) {
+        fail(result);
     } catch (const std::bad_alloc&) {
         outcome.out_of_memory = true;
-        fail(result);
+        fail(result, place);
     } catch (...) {
-        fail(result);
+        fail(result, place);
     }
     const bool has_map = task.is_current || result.status == AssetStatus::up_to_date ||
                          (result.status == AssetStatus::baked && !task.dry_run);
@@ -109,7 +114,7 @@ std::string run_child(const ChildTask& task) {
         {"triangles", result.facts.triangles},
         {"bytes", result.facts.bytes},
         {"figures", result.facts.figures},
-        {"interrupted", outcome.interrupted},
+        {"interrupt", outcome.interrupt},
         {"out_of_memory", outcome.out_of_memory},
         {"output_failed", outcome.output_failed},
     };
@@ -135,7 +140,7 @@ ChildOutcome parse_outcome(const std::string& bytes) {
         json.at("triangles").get_to(result.facts.triangles);
         json.at("bytes").get_to(result.facts.bytes);
         json.at("figures").get_to(result.facts.figures);
-        json.at("interrupted").get_to(outcome.interrupted);
+        json.at("interrupt").get_to(outcome.interrupt);
         json.at("out_of_memory").get_to(outcome.out_of_memory);
         json.at("output_failed").get_to(outcome.output_failed);
         const auto picture = std::as_bytes(std::span(bytes).subspan(begin + length));

@@ -22,7 +22,7 @@ struct ChildTask {
 
 struct ChildOutcome {
     AssetResult result; // of baked, up_to_date, failed; without what only the parent knows
-    bool interrupted = false;
+    int interrupt = 0;  // the signal that asked it to end before it was done; 0 = none
     bool out_of_memory = false;
     bool output_failed = false;     // for a reason that concerns all outputs (OutputError)
     std::vector<std::byte> picture; // PNG; empty if not wanted or not to be had

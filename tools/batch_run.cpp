@@ -152,9 +152,12 @@ private:
         memory_in_use_ -= start.memory_bytes;
         if (!end.completed) remove_leftovers_of(start.task.asset.output);
         ChildOutcome outcome = parse_outcome(end.result);
-        const bool was_stopped = !end.completed || outcome.interrupted;
+        const bool was_stopped = !end.completed || outcome.interrupt != 0;
         if (was_stopped && report_.stopped_by == BatchStop::signal) return; // not_started
-        if (was_stopped) describe_end(end, start.task.asset, outcome.result);
+        if (was_stopped) {
+            outcome.result.signal = end.signal != 0 ? end.signal : outcome.interrupt;
+            describe_end(end, start.task.asset, outcome.result);
+        }
         if (may_want_memory(end, outcome) && start.memory_bytes < arguments_.memory_bytes) {
             if (report_.stopped_by != BatchStop::none) return; // not_started
             start.memory_bytes = arguments_.memory_bytes;      // with all of it, and so alone
@@ -174,26 +177,29 @@ private:
 
     // Memory that is not to be had shows as an error, or as a crash where a library does not expect it.
     static bool may_want_memory(const WorkerEnd& end, const ChildOutcome& outcome) {
-        return outcome.out_of_memory || (end.signal != 0 && !end.timed_out);
+        return outcome.out_of_memory || (end.signal != 0 && !end.timed_out && !asks_to_end(end.signal));
     }
 
-    // What is to be said of a process that ended by a signal.
+    static bool asks_to_end(int signal) { return signal == SIGTERM || signal == SIGINT || signal == SIGHUP; }
+
+    // What is to be said of a process that was stopped; result.signal is known.
     void describe_end(const WorkerEnd& end, const BatchAsset& asset, AssetResult& result) const {
-        result.error = asset.path.string() + ": ";
         result.status = AssetStatus::failed;
-        result.signal = end.signal;
+        result.error = asset.path.string() + ": ";
+        const std::string signal = signal_name(result.signal);
         if (end.timed_out) {
             result.exit_code = ExitCode::limits;
-            result.error =
+            result.error +=
                 "took longer than " + std::to_string(arguments_.timeout->count()) + " s (--timeout)";
-        } else if (end.signal == SIGKILL) {
+        } else if (result.signal == SIGKILL) {
             result.exit_code = ExitCode::unsupported;
-            result.error =
+            result.error +=
                 "was killed (SIGKILL), as the system does when it is out of memory; lower --memory or --jobs";
         } else {
             result.exit_code = ExitCode::internal;
-            result.error += end.signal == 0 ? "its process ended without a result"
-                                            : "crashed (" + signal_name(end.signal) + ")";
+            result.error += result.signal == 0           ? "its process ended without a result"
+                            : asks_to_end(result.signal) ? "was ended by somebody else (" + signal + ")"
+                                                         : "crashed (" + signal + ")";
         }
     }
 

@@ -94,6 +94,11 @@ struct Source {
     FileState state;  // on disk
 };
 
+bool is_known(const std::optional<std::string>& file, const Recorded& recorded) {
+    return !file || std::any_of(recorded.files.begin(), recorded.files.end(),
+                                [&](const Json& entry) { return name_of(entry) == *file; });
+}
+
 // The recorded files as they are on disk; none if one is gone or has another size, or if one that was missing
 // is there.
 std::optional<std::vector<Source>> find_sources(const Recorded& recorded, const fs::path& asset) {
@@ -106,10 +111,14 @@ std::optional<std::vector<Source>> find_sources(const Recorded& recorded, const 
         if (!state || hash == nullptr || state->size != number_of(entry, "bytes")) return {};
         sources.push_back({*path, *hash, *state});
     }
+    const Json* const format = member(recorded.facts["source"], "format", Json::value_t::string);
+    const bool in_any_case = format != nullptr && *format == "OBJ";
     for (const Json& entry : recorded.missing) {
         const std::optional<fs::path> path = source_path(asset, entry);
         std::error_code error;
         if (!path || fs::exists(*path, error)) return {};
+        if (in_any_case && !is_known(import::find_in_any_case(asset.parent_path(), name_of(entry)), recorded))
+            return {};
     }
     return sources;
 }

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace spa::import {
@@ -50,7 +51,8 @@ struct Report {
     std::string format; // "glTF", "GLB", "OBJ", "PLY", "STL" or "OFF"
     std::vector<SourceFile> files;
     // Files that were looked for and absent, without an error: with one of them the result would be another.
-    // Names as in SourceFile, each once. OBJ and MTL take a file whose name differs in the case of letters.
+    // Names as in SourceFile, each once. Where OBJ and MTL take a file whose name differs in the case of
+    // letters (find_in_any_case), the name that they say is among them too.
     std::vector<std::string> missing;
     std::vector<std::string> warnings;    // full sentences; each distinct one once, in order
     std::uint64_t dropped_degenerate = 0; // triangles with two equal corners in the index buffer or no area
@@ -70,6 +72,11 @@ struct Result {
 // we do not read (an unknown required extension: by name). Every message starts with the path. Deterministic.
 // Time and memory linear in the size of the files and of the flattened model.
 Result read_model(const std::filesystem::path& path, const Limits& limits = {});
+
+// The file that OBJ and MTL files take where there is none of this name: one whose name differs in the case
+// of letters (A to Z), the first in the order of bytes if there are several. name: relative to the folder,
+// with '/' between its parts. Returns the name as it is on disk, or nothing.
+std::optional<std::string> find_in_any_case(const std::filesystem::path& folder, std::string_view name);
 
 struct SceneResult {
     Scene scene; // scene.model and the warnings about it are those of read_model

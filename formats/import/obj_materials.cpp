@@ -12,14 +12,6 @@
 namespace spa::import {
 namespace {
 
-namespace fs = std::filesystem;
-
-std::string in_small_letters(std::string_view name) {
-    std::string small(name);
-    for (char& c : small) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-    return small;
-}
-
 std::string folder_of(const std::string& name) { return name.substr(0, name.rfind('/') + 1); }
 
 bool is_translucent(const Texture& texture) {
@@ -65,47 +57,15 @@ std::optional<ObjMaterials::FoundFile> ObjMaterials::read(std::string_view text)
     std::string name = reference.name;
     std::optional<FileContent> content = references_.read(reference);
     if (!content) {
-        const std::optional<Reference> found = find_file(reference);
-        if (found) {
-            name = found->name;
-            content = references_.read(*found);
+        // With a file of that very name the result would be another.
+        references_.add_missing(reference.name);
+        if (const std::optional<std::string> found = any_case_.find(reference.name)) {
+            name = *found;
+            content = references_.read({name, asset_.path.parent_path() / name});
         }
     }
-    if (!content) {
-        references_.add_missing(reference.name);
-        return std::nullopt;
-    }
+    if (!content) return std::nullopt;
     return FoundFile{std::move(name), std::move(*content)};
-}
-
-const ObjMaterials::Listing& ObjMaterials::listing(const fs::path& folder) {
-    const auto [entry, is_new] = listings_.try_emplace(folder.string());
-    Listing& names = entry->second;
-    if (!is_new) return names;
-    std::error_code code;
-    for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
-        std::string name = it->path().filename().string();
-        const auto [same, first] = names.try_emplace(in_small_letters(name), name);
-        if (!first && name < same->second) same->second = std::move(name);
-    }
-    return names;
-}
-
-std::optional<Reference> ObjMaterials::find_file(const Reference& reference) {
-    fs::path folder = asset_.path.parent_path();
-    if (folder.empty()) folder = ".";
-    std::string name;
-    for (std::size_t begin = 0; begin <= reference.name.size();) {
-        const std::size_t end = std::min(reference.name.find('/', begin), reference.name.size());
-        const Listing& names = listing(folder);
-        const auto entry =
-            names.find(in_small_letters(std::string_view(reference.name).substr(begin, end - begin)));
-        if (entry == names.end()) return std::nullopt;
-        name += (name.empty() ? "" : "/") + entry->second;
-        folder /= entry->second;
-        begin = end + 1;
-    }
-    return Reference{name, folder};
 }
 
 bool ObjMaterials::read_library(std::string_view reference) {

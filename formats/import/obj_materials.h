@@ -2,13 +2,13 @@
 // From the statements of a material library to the materials and textures of a Model.
 #pragma once
 
+#include "any_case.h"
 #include "import.h"
 #include "mtl.h"
 #include "polygon_soup.h"
 #include "source_file.h"
 #include "texture.h"
 
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -42,7 +42,8 @@ struct ObjMaterial {
 class ObjMaterials {
 public:
     ObjMaterials(const Asset& asset, const Limits& limits, Report& report)
-        : asset_(asset), report_(report), references_(asset, limits, report), budget_(limits) {}
+        : asset_(asset), report_(report), references_(asset, limits, report), budget_(limits),
+          any_case_(asset.path.parent_path()) {}
 
     // The rest of a mtllib statement: one file name with or without blanks, or several. The first material of
     // a name counts. A missing library is a warning. Throws Error for a reference that leaves the folder and
@@ -77,18 +78,11 @@ private:
     Texture combine(std::optional<Texture> color, const std::optional<Texture>& dissolve);
     MadeTexture make_texture(const Found& found, std::vector<Texture>& textures);
 
-    // The entries of a folder by their names in small letters, the first in the order of bytes where several
-    // are equal.
-    using Listing = std::map<std::string, std::string>;
-    const Listing& listing(const std::filesystem::path& folder);
-    // The reference with the case of letters that its file has. Nothing if there is none.
-    std::optional<Reference> find_file(const Reference& reference);
-
     const Asset& asset_;
     Report& report_;
     References references_;
     TextureBudget budget_;
-    std::map<std::string, Listing> listings_;            // by folder
+    AnyCase any_case_;
     std::map<std::string, bool, std::less<>> libraries_; // whether they are there, by reference
     std::map<std::string, Found> materials_;
     std::map<std::pair<std::string, std::string>, MadeTexture> made_; // by the files of map_Kd and map_d

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "batch_folder.h"
 
+#include "assets.h"
+
 #include "../cli/schema.h"
 
 #include "../../formats/container/reader.h"
@@ -53,11 +55,33 @@ void BatchFolder::add(const std::string& name, const std::string& bytes) {
     assets_.insert(name);
 }
 
+void BatchFolder::add_slow(const std::string& name) { add(name, obj_of_size(0, 100'000)); }
+
 std::vector<std::string> BatchFolder::batch(const std::vector<std::string>& more) const {
     std::vector<std::string> arguments{"batch", "in", "-o", "out", "--jobs", "2"};
     arguments.insert(arguments.end(), options_.begin(), options_.end());
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
+}
+
+std::vector<std::string> BatchFolder::batch_with(const std::string& pattern, const nlohmann::json& options,
+                                                 const std::vector<std::string>& more) const {
+    // All in the file: what is in the command line would overrule the pattern.
+    nlohmann::json config = {{"options", nlohmann::json::object()},
+                             {"patterns", {{{"match", pattern}, {"options", options}}}}};
+    for (std::size_t i = 0; i + 1 < options_.size(); i += 2)
+        config["options"][options_[i].substr(2)] = options_[i + 1];
+    write_file(path() / "config.json", config.dump());
+    std::vector<std::string> arguments{"batch", "in", "-o", "out", "--jobs", "2", "--config", "config.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+std::vector<std::string> BatchFolder::slow_batch(const std::vector<std::string>& more) const {
+    // A hundred million camera views.
+    return batch_with(
+        "slow*",
+        {{"paper", true}, {"size", "1280x960"}, {"samples", 8}, {"baker", "orbit"}, {"gl", "osmesa"}}, more);
 }
 
 Outcome BatchFolder::run(const std::vector<std::string>& more, const Surroundings& surroundings) const {

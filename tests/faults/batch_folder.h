@@ -36,12 +36,22 @@ public:
     void write(const std::string& name, const std::string& bytes) const;
     // As write(), of an asset, whose map is expected from now on.
     void add(const std::string& name, const std::string& bytes);
+    // An asset whose bake takes minutes in a slow_batch(), and no longer than any other in another run, if
+    // its name begins with "slow". It is the largest, and so the first that is begun.
+    void add_slow(const std::string& name);
     // No longer.
     void forget(const std::string& name) { assets_.erase(name); }
     [[nodiscard]] const std::set<std::string>& assets() const { return assets_; }
 
     // The arguments of `spa batch in -o out --jobs 2` with the options and more.
     [[nodiscard]] std::vector<std::string> batch(const std::vector<std::string>& more = {}) const;
+    // As batch(), with further options for the assets that a pattern matches.
+    [[nodiscard]] std::vector<std::string> batch_with(const std::string& pattern,
+                                                      const nlohmann::json& options,
+                                                      const std::vector<std::string>& more = {}) const;
+    // As batch(), but for assets whose name begins with "slow".
+    [[nodiscard]] std::vector<std::string> slow_batch(const std::vector<std::string>& more = {}) const;
+    // Of a batch() with more.
     [[nodiscard]] Outcome run(const std::vector<std::string>& more = {},
                               const Surroundings& surroundings = {}) const;
 
