@@ -39,17 +39,21 @@ constexpr std::size_t mebi = std::size_t{1} << 20U;
 
 class Memory : public testing::Test {
 protected:
+    void SetUp() override {
+        least_ = read_in_another_process(scratch_.write("triangle.glb", triangle().glb())).peak_bytes;
+        if (least_ == 0) GTEST_SKIP() << "under a sanitizer memory says nothing";
+    }
+
     // The process may take `most_bytes` more than it does for a triangle.
     void expect(const std::string& name, std::string_view content, const std::string& message,
                 std::size_t most_bytes) {
-        const std::size_t least =
-            read_in_another_process(scratch_.write("triangle.glb", triangle().glb())).peak_bytes;
         const Outcome outcome = read_in_another_process(scratch_.write(name, content));
         EXPECT_NE(outcome.model.find(message), std::string::npos) << outcome.model;
-        EXPECT_LE(outcome.peak_bytes, least + most_bytes) << name << ": " << content.size() << " bytes";
+        EXPECT_LE(outcome.peak_bytes, least_ + most_bytes) << name << ": " << content.size() << " bytes";
     }
 
     Scratch scratch_;
+    std::size_t least_ = 0;
 };
 
 const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
