@@ -94,9 +94,13 @@ struct Source {
     FileState state;  // on disk
 };
 
-bool is_known(const std::optional<std::string>& file, const Recorded& recorded) {
-    return !file || std::any_of(recorded.files.begin(), recorded.files.end(),
-                                [&](const Json& entry) { return name_of(entry) == *file; });
+// Whether a file is there that an OBJ file takes for the missing one, and that is not recorded.
+bool has_new_substitute(const fs::path& folder, const std::string& missing, const Recorded& recorded) {
+    const std::optional<std::string> found = import::find_in_any_case(folder, missing);
+    std::error_code error;
+    return found && fs::exists(folder / *found, error) &&
+           std::none_of(recorded.files.begin(), recorded.files.end(),
+                        [&](const Json& entry) { return name_of(entry) == *found; });
 }
 
 // The recorded files as they are on disk; none if one is gone or has another size, or if one that was missing
@@ -117,8 +121,7 @@ std::optional<std::vector<Source>> find_sources(const Recorded& recorded, const 
         const std::optional<fs::path> path = source_path(asset, entry);
         std::error_code error;
         if (!path || fs::exists(*path, error)) return {};
-        if (in_any_case && !is_known(import::find_in_any_case(asset.parent_path(), name_of(entry)), recorded))
-            return {};
+        if (in_any_case && has_new_substitute(asset.parent_path(), name_of(entry), recorded)) return {};
     }
     return sources;
 }

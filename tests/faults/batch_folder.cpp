@@ -28,8 +28,9 @@ std::string content_of(const fs::path& path) {
 // All that a bake may read: the files of the asset's folder.
 std::string state_of(const fs::path& asset) {
     std::vector<std::string> files;
+    std::error_code unreadable; // such as a link to itself
     for (const fs::directory_entry& entry : fs::directory_iterator(asset.parent_path()))
-        if (entry.is_regular_file())
+        if (entry.is_regular_file(unreadable))
             files.push_back(entry.path().filename().string() + '\0' + content_of(entry));
     std::sort(files.begin(), files.end());
     std::string state = asset.filename().string();

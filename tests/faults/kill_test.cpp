@@ -3,6 +3,7 @@
 #include "assets.h"
 #include "batch_folder.h"
 #include "processes.h"
+#include "sanitizer.h"
 
 #include <array>
 #include <chrono>
@@ -58,10 +59,10 @@ protected:
 };
 
 TEST_P(Kill, AtAnyMomentLeavesWholeMapsAndTheNextRunGoesOn) {
-    constexpr int rounds = 35;
+    constexpr int tries = rounds(35);
     const Clock::duration time = measure();
     int cut_short = 0;
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0; round < tries; ++round) {
         SCOPED_TRACE(round);
         std::filesystem::remove_all(folder_.out());
         Process process(folder_.batch(), folder_.path());
@@ -88,7 +89,7 @@ TEST_P(Kill, AtAnyMomentLeavesWholeMapsAndTheNextRunGoesOn) {
         ASSERT_EQ(folder_.run().exit_code, 0);
         ASSERT_TRUE(folder_.is_complete());
     }
-    EXPECT_GT(cut_short, rounds / 2); // or nothing was tried
+    EXPECT_GT(cut_short, tries / 2); // or nothing was tried
 }
 
 std::string victim_name(const testing::TestParamInfo<Victim>& victim) {
