@@ -181,6 +181,9 @@ fs::path output_of(const fs::path& folder, const BatchAsset& asset, bool whole_n
     return folder / name;
 }
 
+// One that could not be listed.
+bool is_folder(const BatchAsset& asset) { return asset.name == "." || asset.name.ends_with('/'); }
+
 void name_outputs(const fs::path& folder, std::vector<BatchAsset>& assets) {
     std::vector<bool> whole(assets.size(), false);
     for (bool changed = true; changed;) {
@@ -188,6 +191,7 @@ void name_outputs(const fs::path& folder, std::vector<BatchAsset>& assets) {
         std::map<std::string, std::size_t> first; // by output
         for (std::size_t i = 0; i < assets.size(); ++i) {
             assets[i].output = output_of(folder, assets[i], whole[i]);
+            if (is_folder(assets[i])) continue;
             const auto [at, is_new] = first.emplace(assets[i].output.string(), i);
             if (is_new) continue;
             if (whole[i] && whole[at->second])
@@ -202,7 +206,10 @@ void name_outputs(const fs::path& folder, std::vector<BatchAsset>& assets) {
 
 bool is_wanted(const BatchAsset& asset, const AssetQuery& query) {
     const auto matches = [&](const std::string& pattern) { return glob_matches(pattern, asset.name); };
-    if (!query.include.empty() && std::none_of(query.include.begin(), query.include.end(), matches))
+    const auto includes = [&](const std::string& pattern) {
+        return is_folder(asset) ? glob_may_match_below(pattern, asset.name) : matches(pattern);
+    };
+    if (!query.include.empty() && std::none_of(query.include.begin(), query.include.end(), includes))
         return false;
     if (std::any_of(query.exclude.begin(), query.exclude.end(), matches)) return false;
     if (!query.shard) return true;

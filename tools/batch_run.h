@@ -18,9 +18,9 @@ using PictureSink = std::function<void(std::size_t asset, std::span<const std::b
 // another: one that crashes, is malformed, or exceeds time or memory has failed, and the others go on. After
 // a signal, or where an output cannot be written for a reason that holds for all (unless
 // arguments.keep_going), no further asset is begun; a run after this one goes on from there. Nothing
-// half-written is left; what killed runs left behind beside these outputs is removed. The calling process
-// must have one thread only, and an InterruptGuard. Throws Error{input_output} if the output folder cannot be
-// made or the system gives no process.
+// half-written is left; what killed runs left behind beside these outputs is removed. No other thread may be
+// at work (worker.h), and the caller has an InterruptGuard. Throws Error{input_output} if the output folder
+// cannot be made or the system gives no process.
 void run_batch(BatchReport& report, const PictureSink& pictures);
 
 } // namespace spa::tools

@@ -19,6 +19,12 @@ std::vector<std::string> parts_of(std::string_view path) {
     return parts;
 }
 
+std::vector<std::string> parts_of_pattern(const std::string& pattern) {
+    std::vector<std::string> parts = parts_of(pattern);
+    if (!parts.empty() && pattern.find('/') == std::string::npos) parts.insert(parts.begin(), "**");
+    return parts;
+}
+
 bool part_matches(const std::string& pattern, const std::string& part) {
     return fnmatch(pattern.c_str(), part.c_str(), FNM_NOESCAPE) == 0;
 }
@@ -27,9 +33,8 @@ bool part_matches(const std::string& pattern, const std::string& part) {
 
 bool glob_matches(const std::string& pattern, std::string_view path) {
     const std::vector<std::string> parts = parts_of(path);
-    std::vector<std::string> wanted = parts_of(pattern);
+    const std::vector<std::string> wanted = parts_of_pattern(pattern);
     if (wanted.empty() || parts.empty()) return false;
-    if (pattern.find('/') == std::string::npos) wanted.insert(wanted.begin(), "**");
     // reached[j]: the pattern so far matches the first j parts.
     std::vector<bool> reached(parts.size() + 1, false);
     reached[0] = true;
@@ -44,6 +49,21 @@ bool glob_matches(const std::string& pattern, std::string_view path) {
         reached = next;
     }
     return std::any_of(reached.begin() + 1, reached.end(), [](bool match) { return match; });
+}
+
+bool glob_may_match_below(const std::string& pattern, std::string_view folder) {
+    const std::vector<std::string> wanted = parts_of_pattern(pattern);
+    const std::vector<std::string> parts = folder == "." ? std::vector<std::string>() : parts_of(folder);
+    if (wanted.empty()) return false;
+    if (glob_matches(pattern, folder)) return true;
+    // What is left of the pattern after the parts of the folder; "**" takes any number of them.
+    std::size_t left = 0;
+    for (const std::string& part : parts) {
+        if (wanted[left] == "**") return true;
+        if (!part_matches(wanted[left], part)) return false;
+        if (++left == wanted.size()) return false;
+    }
+    return true;
 }
 
 } // namespace spa::tools

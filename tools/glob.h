@@ -13,4 +13,7 @@ namespace spa::tools {
 // they are. O(parts of the pattern * parts of the path) calls of fnmatch(3).
 bool glob_matches(const std::string& pattern, std::string_view path);
 
+// Whether there can be a path below this folder that the pattern matches. "" and "." are the top.
+bool glob_may_match_below(const std::string& pattern, std::string_view folder);
+
 } // namespace spa::tools

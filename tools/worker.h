@@ -29,8 +29,10 @@ struct WorkerEnd {
     double seconds = 0;
 };
 
-// Runs tasks in forks of this process, which must have one thread only: a fork costs a millisecond, a new
-// start of the command two hundred. Children die with their parent.
+// Runs tasks in forks of this process: a fork costs a millisecond, a new start of the command two hundred. No
+// other thread of this process may be at work, as it would be gone from the fork with the locks that it
+// holds; those that libraries start when they are loaded, and that sleep, do no harm. Children die with their
+// parent.
 class WorkerPool {
 public:
     // From now on SIGCHLD does what it does by default: a process that was started with it ignored would

@@ -39,5 +39,15 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"", "a.obj", false}, Case{"\xff*", "\xff\xfe.obj", true},
         Case{"**/**/**/x", "a/b/c/d/e/f/g/x", true}));
 
+TEST(GlobBelow, SaysWhetherAFolderMayHoldAMatch) {
+    using tools::glob_may_match_below;
+    for (const char* pattern : {"*.obj", "a", "/a", "a/", "a/b", "a/b/", "a/b/*.obj", "a/**", "**/x.obj",
+                                "*/*/*.obj", "a/**/x.obj", "?/[a-c]/d/e.obj"})
+        EXPECT_TRUE(glob_may_match_below(pattern, "a/b/")) << pattern;
+    for (const char* pattern : {"", "/b", "c/**", "/x.obj", "a/x.obj", "a/c/*.obj", "*/c/*.obj"})
+        EXPECT_FALSE(glob_may_match_below(pattern, "a/b/")) << pattern;
+    for (const char* top : {"", "."}) EXPECT_TRUE(glob_may_match_below("x/y.obj", top));
+}
+
 } // namespace
 } // namespace spa::test

@@ -3,9 +3,11 @@
 #include "assets.h"
 #include "batch_folder.h"
 #include "processes.h"
+#include "sanitizer.h"
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 
 namespace spa::test {
 namespace {
@@ -15,6 +17,11 @@ protected:
     Crash() {
         folder_.add_slow("slow.obj");
         for (const char* name : {"a.obj", "b.obj", "sub/c.obj"}) folder_.add(name, obj(1));
+        if (!is_sanitized) return;
+        // Its handler would report the signal and let the process end by itself.
+        const char* const options = std::getenv("ASAN_OPTIONS");
+        setenv("ASAN_OPTIONS", (std::string(options == nullptr ? "" : options) + ":handle_segv=0").c_str(),
+               1);
     }
 
     // The bake of the slow asset when it alone is left, but for the one of this number before.

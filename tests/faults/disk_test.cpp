@@ -163,6 +163,27 @@ TEST(Permissions, FolderThatLosesItsPermissionsDuringTheRun) {
     EXPECT_TRUE(folder.is_complete());
 }
 
+TEST(Disk, OutputFolderThatVanishesAgainAndAgain) {
+    BatchFolder folder;
+    add_assets(folder, 40);
+    Process process(folder.batch({"--report", "report.json"}), folder.path());
+    std::error_code ignored;
+    int removed = 0;
+    while (process.until([&] { return fs::exists(folder.out("0")) || fs::exists(folder.out("1")); })) {
+        fs::remove_all(folder.out(), ignored);
+        ++removed;
+    }
+    const Outcome outcome = process.wait();
+    EXPECT_GT(removed, 1);
+    EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 2) << outcome.err;
+    EXPECT_TRUE(folder.maps_are_right());
+    EXPECT_EQ(folder.report()["counts"]["not_started"], 0);
+    for (const nlohmann::json& asset : folder.report()["assets"])
+        EXPECT_TRUE(asset["status"] == "baked" || says(asset["error"], "out/")) << asset;
+    EXPECT_EQ(folder.run().exit_code, 0);
+    EXPECT_TRUE(folder.is_complete());
+}
+
 // A pipe must not be waited for, and what is no regular file not be replaced.
 TEST(Disk, PlaceOfAMapThatIsTaken) {
     BatchFolder folder;

@@ -153,8 +153,12 @@ TEST(InterruptBatchWith, NobodyWhoTellsTheBakes) {
         SCOPED_TRACE(round);
         Process process(folder.slow_batch(), folder.path());
         const std::size_t children = std::size_t(1 + round % 2);
-        while (children_of(process.id()).size() < children) {
-        }
+        const auto are_there = [&] { return children_of(process.id()).size() >= children; };
+        ASSERT_TRUE(process.until([&] {
+            for (int look = 0; look < 1000; ++look) // at once when it is, and not a millisecond later
+                if (are_there()) return true;
+            return false;
+        }));
         kill(process.id(), SIGKILL);
         process.wait();
         ASSERT_TRUE(Orphanage::all_have_ended());

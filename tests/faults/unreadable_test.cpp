@@ -69,6 +69,44 @@ const Case cases[] = {
 INSTANTIATE_TEST_SUITE_P(Sources, Unreadable, testing::ValuesIn(cases),
                          [](const testing::TestParamInfo<Case>& given) { return given.param.name; });
 
+// A folder that may hold what is asked for is a failure, and one that may not is none.
+TEST(Unreadable, FoldersAndPatterns) {
+    BatchFolder folder;
+    folder.add("props/a.obj", obj(0));
+    folder.add("locked/b.obj", obj(1));
+    chmod(folder.in("locked").c_str(), 0);
+    for (const char* pattern : {"*.obj", "lock*/b.obj"}) {
+        const Outcome outcome = folder.run({"--include", pattern}, no_superuser);
+        EXPECT_EQ(outcome.exit_code, 2) << pattern;
+        EXPECT_TRUE(says(outcome.err, "locked/: failed, exit 2: in/locked: the folder cannot be read"));
+    }
+    for (const char* pattern : {"props/**", "/a.obj"})
+        EXPECT_EQ(folder.run({"--include", pattern}, no_superuser).exit_code, 0) << pattern;
+    for (const char* pattern : {"locked/", "lock*"})
+        EXPECT_EQ(folder.run({"--exclude", pattern}, no_superuser).exit_code, 0) << pattern;
+    chmod(folder.in("locked").c_str(), 0755);
+    EXPECT_EQ(folder.run().exit_code, 0);
+    EXPECT_TRUE(folder.is_complete());
+}
+
+TEST(Unreadable, FoldersOfTheSameNameInTwoInputs) {
+    BatchFolder folder;
+    folder.add("1/a.obj", obj(0));
+    folder.add("2/b.obj", obj(1));
+    for (const char* name : {"1/locked", "2/locked"}) {
+        fs::create_directory(folder.in(name));
+        chmod(folder.in(name).c_str(), 0);
+    }
+    const Outcome outcome =
+        run_spa({"batch", "in/1", "in/2", "-o", "out", "--size", "16"}, folder.path(), "", no_superuser);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    for (const char* name : {"in/1/locked", "in/2/locked"})
+        EXPECT_TRUE(says(outcome.err, std::string(name) + ": the folder cannot be read: Permission denied"));
+    EXPECT_EQ(read_file(folder.out("a.spa")), folder.reference("1/a.obj"));
+    EXPECT_EQ(read_file(folder.out("b.spa")), folder.reference("2/b.obj"));
+    for (const char* name : {"1/locked", "2/locked"}) chmod(folder.in(name).c_str(), 0755);
+}
+
 TEST(Unreadable, WhatTheCommandLineNames) {
     BatchFolder folder;
     folder.add("a.obj", obj(0));
