@@ -159,7 +159,7 @@ const std::vector<Module>& modules() {
          .targets = {"import"},
          .uses = {"libspa/core/", "libspa/mesh/"},
          .includes = {"OpenImageIO/", "OpenMesh/", "draco/", "meshoptimizer.h", "nlohmann/", "tiny_gltf.h",
-                      "tbb/", "xxhash.h"},
+                      "tbb/", "xxhash.h", "sys/", "fcntl.h", "unistd.h"},
          .links = {"PkgConfig::xxhash", "OpenImageIO::", "OpenMesh", "TBB::", "draco", "meshoptimizer",
                    "nlohmann_json::", "tinygltf"}},
         {.folder = "samples/",
