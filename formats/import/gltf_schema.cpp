@@ -5,6 +5,7 @@
 #include "readers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -181,19 +182,42 @@ void check_counts(const Json& document, const Context& context) {
     check("meshes.primitives", primitives, many);
 }
 
+namespace {
+
+template <std::size_t count>
+void keep_only(Json& object, const std::array<std::string_view, count>& names) {
+    for (auto member = object.begin(); member != object.end();)
+        member = std::find(names.begin(), names.end(), member.key()) == names.end() ? object.erase(member)
+                                                                                    : std::next(member);
+}
+
+// What is left of an extension: what it says itself. "attributes" may have members of any name; extensions of
+// its own are those of remove_unread.
+void keep_read(Json& value) {
+    constexpr std::array<std::string_view, 12> members{
+        "bufferView", "attributes", "index", "texCoord",      "offset",         "rotation",
+        "scale",      "source",     "light", "diffuseFactor", "diffuseTexture", "extensions"};
+    if (!value.is_object()) return;
+    keep_only(value, members);
+    for (const auto& [name, member] : value.items())
+        if (name != "attributes" && name != "extensions") keep_read(member);
+}
+
+} // namespace
+
 void remove_unread(Json& document) {
-    constexpr std::string_view read[] = {"KHR_draco_mesh_compression", "EXT_mesh_gpu_instancing",
-                                         "KHR_texture_transform",      "EXT_texture_webp",
-                                         "KHR_texture_basisu",         "MSFT_texture_dds",
-                                         "KHR_lights_punctual",        "KHR_materials_pbrSpecularGlossiness"};
+    constexpr std::array<std::string_view, 8> read{
+        "KHR_draco_mesh_compression", "EXT_mesh_gpu_instancing",
+        "KHR_texture_transform",      "EXT_texture_webp",
+        "KHR_texture_basisu",         "MSFT_texture_dds",
+        "KHR_lights_punctual",        "KHR_materials_pbrSpecularGlossiness"};
     if (document.is_object()) {
         document.erase("extras");
         const auto extensions = document.find("extensions");
-        if (extensions != document.end() && extensions->is_object())
-            for (auto entry = extensions->begin(); entry != extensions->end();)
-                entry = std::find(std::begin(read), std::end(read), entry.key()) == std::end(read)
-                            ? extensions->erase(entry)
-                            : std::next(entry);
+        if (extensions != document.end() && extensions->is_object()) {
+            keep_only(*extensions, read);
+            for (Json& extension : *extensions) keep_read(extension);
+        }
     }
     if (document.is_structured())
         for (Json& member : document) remove_unread(member);

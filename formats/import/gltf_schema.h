@@ -23,7 +23,8 @@ void check_schema(Json& document, const Context& context);
 // it says. The document may be any JSON.
 void check_counts(const Json& document, const Context& context);
 
-// Takes out what nobody reads but tinygltf would keep in memory: "extras" and unknown extensions.
+// Takes out what nobody reads but tinygltf would keep in memory: "extras", unknown extensions and
+// unknown members of the others.
 void remove_unread(Json& document);
 
 // The same for cameras and KHR_lights_punctual, which only a scene needs; the document passed check_schema.

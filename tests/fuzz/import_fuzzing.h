@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fuzzers of the importers do with an input. They abort if a promise of formats/import is broken; a
-// test runs the inputs that once broke one without libFuzzer.
+// What the fuzzers of the importers do with an input. They abort if a promise of formats/import is broken.
 #pragma once
 
 #include <cstddef>

@@ -83,6 +83,12 @@ TEST_F(Memory, ValuesOfJson) {
            "the JSON has more than 16777216 values", 3 * 34 * mebi);
     expect("c.gltf", gltf_head + R"("materials":[)" + repeated("{},", 70'000) + "{}]}",
            "materials: has 70001 elements, more than the limit of 65536", 32 * mebi);
+    expect("e.gltf",
+           gltf_head +
+               R"("meshes":[{"primitives":[{"attributes":{}}]}],"nodes":[{"mesh":0,"extensions":)"
+               R"({"EXT_mesh_gpu_instancing":{"attributes":{},"a":[)" +
+               repeated("[0],", 1'000'000) + "0]}}}]}",
+           "nothing to bake", 48 * 4 * mebi);
     expect("d.gltf", gltf_head + R"("meshes":[{"primitives":[)" + repeated("0,", 2'100'000) + "0]}]}",
            "meshes.primitives: has 2100001 elements", 32 * 4 * mebi);
 }
