@@ -93,17 +93,17 @@ public:
 
     SurfaceGrid cast(const Grid& grid, const Progress& progress) {
         const CrossingGrid crossings =
-            caster_(model_, grid, {options_.layers == 1, options_.threads, progress});
+            caster_(model_, grid, {options_.one_depth(), options_.threads, progress});
         const bool first = orientation_.seen.empty();
         if (first) {
             orientation_ = orient_components(crossings, components_);
             report_.back_facing_samples = back_facing_samples(crossings);
             for (std::uint32_t c = 0; c < components_.count; ++c) {
                 if (!orientation_.seen[c]) ++report_.unseen_components;
-                if (options_.layers > 1 && orientation_.solid[c]) report_.center_inside = true;
+                if (!options_.one_depth() && orientation_.solid[c]) report_.center_inside = true;
             }
         }
-        if (options_.layers == 1) return outermost_surface(crossings);
+        if (options_.one_depth()) return outermost_surface(crossings);
         IntervalStatistics statistics;
         SurfaceGrid surfaces =
             pair_intervals(crossings, components_, orientation_, options_.layers, statistics);
@@ -147,7 +147,7 @@ void add_warnings(Report& report, const Options& options) {
     if (report.unseen_components > 0) {
         warn(plural(report.unseen_components, "piece", "pieces") + " of " +
              std::to_string(report.components) + " met no sample: thinner than the sampling, or hidden" +
-             (options.layers == 1 ? " behind others; more --layers or a larger --size may keep them"
+             (options.one_depth() ? " behind others; more --layers or a larger --size may keep them"
                                   : "; a larger --size may keep them"));
     }
     if (report.truncated_samples > 0) {
@@ -192,7 +192,7 @@ Result bake_with(const Caster& cast, const Model& model, const Options& options,
         PartFrame frame = place(center);
         CenteredModel centered = center_model(model, frame);
         const Components components = find_components(model);
-        const bool ask_inside = options.layers == 1;
+        const bool ask_inside = options.one_depth();
         inspect_triangles(centered, components, ask_inside, report);
         if (report.center_on_surface && options.center == Center::bounds) {
             const double radius = frame.radius;

@@ -28,6 +28,8 @@ struct Options {
     // 1: the outermost surface alone, taken as solid to the centre (the paper's data).
     // K > 1: the outermost K intervals of solid, each with its outer and inner surface.
     std::uint32_t layers = 2;
+    bool inner_of_one = false; // layers = 1: the outermost interval with its inner surface, as of K > 1
+    bool folds = true; // intervals on octahedral maps: store how surfaces end between samples (folds.h)
     Frame frame = Frame::sphere;
     Center center = Center::bounds;
     Baker baker = Baker::radial;
@@ -35,6 +37,9 @@ struct Options {
     bool gl_naive = false;     // orbit: one draw and one read-back a view
     std::uint32_t samples = 1; // samples^2 sub-texel samples of colour and coverage a texel, 1..8
     unsigned threads = 0;      // 0 = all cores; the result does not depend on it
+
+    // Only the outermost surface, without intervals.
+    [[nodiscard]] bool one_depth() const { return layers == 1 && !inner_of_one; }
 };
 
 } // namespace spa::bake

@@ -94,6 +94,9 @@ struct Part {
     // Octahedral maps: which triangles between samples are mixed, that is not to be interpolated over; the
     // layout is in cell_triangles.h, N = width of the depth images - 1. Empty: not stored.
     std::span<const std::byte> mixed;
+    // Octahedral maps with `mixed`: how the crossings of samples around mixed triangles belong together; the
+    // bytes of encode_folds() (folds.h). Empty: not stored.
+    std::span<const std::byte> folds;
 };
 
 struct SphericalMap {
