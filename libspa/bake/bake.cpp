@@ -4,6 +4,7 @@
 #include "arena.h"
 #include "center.h"
 #include "color_image.h"
+#include "find_folds.h"
 #include "intervals.h"
 #include "mixed.h"
 #include "orbit.h"
@@ -113,6 +114,9 @@ public:
         }
         return surfaces;
     }
+
+    // After the first cast.
+    [[nodiscard]] const Orientation& orientation() const { return orientation_; }
 
 private:
     const Caster& caster_;
@@ -228,7 +232,15 @@ Result bake_with(const Caster& cast, const Model& model, const Options& options,
         part.center_inside = report.center_inside;
         pack_layers(shape, shared ? shape : color, options, part, result.map);
         if (part.mapping == Mapping::octahedral) {
-            pack_mixed(mixed_triangles(shape, face_normals(centered)), part, result.map);
+            const std::uint32_t cells = options.grid.width - 1;
+            std::vector<std::uint8_t> edges = match_edges(shape, face_normals(centered));
+            if (options.folds && !options.one_depth() && cells <= most_fold_cells &&
+                options.layers <= most_fold_layers) {
+                const Folds folds = find_folds(centered, components, surfaces.orientation(), shape, edges);
+                report.folds = folds.statistics;
+                pack_folds(folds.records, part, result.map);
+            }
+            pack_mixed(mixed_triangles(cells, edges), part, result.map);
             report.mixed_triangles = mixed_share(part.mixed);
         }
         for (std::size_t k = 0; k < part.layers.size(); ++k) {

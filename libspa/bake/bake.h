@@ -23,6 +23,17 @@ struct OwnedMap {
     std::vector<std::unique_ptr<std::byte[]>> pixels;
 };
 
+// Of the edges between samples (fold records: ../core/folds.h).
+struct FoldStatistics {
+    std::uint64_t edges = 0;
+    std::uint64_t searched = 0;   // whose samples' crossings do not match as they are
+    std::uint64_t directions = 0; // cast between samples
+    std::uint64_t pairs = 0;      // records of two crossings that meet
+    std::uint64_t singles = 0;    // records of one that ends alone
+    std::uint64_t unresolved = 0; // edges on which all crossings end in the middle, as records cannot say what
+                                  // was found
+};
+
 struct LayerReport {
     double outer_coverage = 0; // share of the sphere's directions (by solid angle) with an outer surface
     double inner_coverage = 0; // ... whose interval ends before the centre
@@ -43,6 +54,7 @@ struct Report {
     double center_moved = 0;               // how far it was moved off the surface, in units of R
     std::vector<LayerReport> layers;       // as written
     std::optional<double> mixed_triangles; // share of the map's triangles (mixed.h); none for latlong
+    std::optional<FoldStatistics> folds;   // none where they are not looked for
     std::vector<std::string> warnings;     // full sentences
     std::string gl;                        // orbit: GlContext::description()
     double seconds = 0;                    // wall clock; never goes into a file
