@@ -101,8 +101,11 @@ public:
             report_.back_facing_samples = back_facing_samples(crossings);
             for (std::uint32_t c = 0; c < components_.count; ++c) {
                 if (!orientation_.seen[c]) ++report_.unseen_components;
-                if (!options_.one_depth() && orientation_.solid[c]) report_.center_inside = true;
+                if (options_.one_depth()) continue;
+                if (orientation_.flipped[c]) ++report_.flipped_components;
+                if (orientation_.solid[c]) ++report_.solid_components;
             }
+            if (report_.solid_components > 0) report_.center_inside = true;
         }
         if (options_.one_depth()) return outermost_surface(crossings);
         IntervalStatistics statistics;
@@ -208,6 +211,8 @@ Result bake_with(const Caster& cast, const Model& model, const Options& options,
         report.triangles = model.triangles.size();
         report.components = components.count;
         report.open_edges = components.open_edges;
+        report.turned_triangles =
+            std::uint64_t(std::count(components.turned.begin(), components.turned.end(), 1));
 
         const Grid color_grid = fine_grid(options.color_grid, options.samples);
         const bool shared = color_grid == options.grid;

@@ -30,8 +30,8 @@ struct FoldStatistics {
     std::uint64_t directions = 0; // cast between samples
     std::uint64_t pairs = 0;      // records of two crossings that meet
     std::uint64_t singles = 0;    // records of one that ends alone
-    std::uint64_t unresolved = 0; // edges on which all crossings end in the middle, as records cannot say what
-                                  // was found
+    std::uint64_t unresolved = 0; // edges on which all crossings end in the middle, as records cannot say
+                                  // what was found
 };
 
 struct LayerReport {
@@ -40,9 +40,13 @@ struct LayerReport {
 };
 
 struct Report {
-    std::uint64_t triangles = 0;         // baked
-    std::uint64_t components = 0;        // pieces connected through vertices welded by position
-    std::uint64_t open_edges = 0;        // directed edges without a partner in the opposite direction
+    std::uint64_t triangles = 0;          // baked
+    std::uint64_t components = 0;         // pieces connected through vertices welded by position
+    std::uint64_t open_edges = 0;         // directed edges without a partner in the opposite direction
+    std::uint64_t turned_triangles = 0;   // wound against their neighbours; taken as if they were not
+    std::uint64_t flipped_components = 0; // pieces whose faces point into the solid; taken the other way
+                                          // round. Like the next one only counted where there are intervals
+    std::uint64_t solid_components = 0;  // pieces that hold the centre: open sides reach it
     std::uint64_t edge_on_triangles = 0; // their plane holds the centre: no direction sees them
     std::uint64_t unseen_components = 0; // pieces of which no sample stores a crossing: needles lost between
                                          // the samples, or hidden behind the stored layers

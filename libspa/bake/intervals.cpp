@@ -32,7 +32,7 @@ Orientation orient_components(const CrossingGrid& crossings, const Components& c
         for (std::uint64_t k = crossings.first[s]; k < crossings.first[s + 1]; ++k) {
             const Crossing& c = crossings.crossings[k];
             const std::uint32_t component = components.of_triangle[c.triangle];
-            const double sign = c.front_facing ? 1 : -1;
+            const double sign = c.front_facing != components.is_turned(c.triangle) ? 1 : -1;
             const double cone = angle * double(c.radius) * c.radius * c.radius / 3;
             volume[component] += sign * cone;
             magnitude[component] += cone;

@@ -2,6 +2,7 @@
 #include "pairing.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace spa::bake {
@@ -29,10 +30,14 @@ std::span<const Interval> Pairing::operator()(std::span<const Crossing> crossing
     intervals_.clear();
     open_.clear();
     thin = false;
+    std::array<float, 2> last{2, 2}; // radius of what entered last, and of what left
     for (const Crossing& crossing : crossings) {
         const std::uint32_t component = components_.of_triangle[crossing.triangle];
-        const bool flipped = orientation_.flipped[component];
-        if (crossing.front_facing != flipped) {
+        const bool enters = crossing.front_facing != is_flipped(crossing);
+        // Through an edge between faces that are wound against each other.
+        if (!components_.turned.empty() && last[enters ? 0 : 1] - crossing.radius < merge_distance) continue;
+        last[enters ? 0 : 1] = crossing.radius;
+        if (enters) {
             open_.push_back(&crossing);
             continue;
         }
@@ -43,14 +48,15 @@ std::span<const Interval> Pairing::operator()(std::span<const Crossing> crossing
             intervals_.push_back(thin_shell(crossing));
             thin = true;
         } else {
-            intervals_.push_back({surface_point(**entry, flipped), surface_point(crossing, flipped)});
+            intervals_.push_back(
+                {surface_point(**entry, is_flipped(**entry)), surface_point(crossing, is_flipped(crossing))});
             open_.erase(std::next(entry).base());
         }
     }
     for (const Crossing* crossing : open_) {
         const std::uint32_t component = components_.of_triangle[crossing->triangle];
         if (orientation_.solid[component]) {
-            intervals_.push_back({surface_point(*crossing, orientation_.flipped[component]), {}});
+            intervals_.push_back({surface_point(*crossing, is_flipped(*crossing)), {}});
         } else {
             intervals_.push_back(thin_shell(*crossing));
             thin = true;
@@ -58,6 +64,11 @@ std::span<const Interval> Pairing::operator()(std::span<const Crossing> crossing
     }
     unite();
     return intervals_;
+}
+
+bool Pairing::is_flipped(const Crossing& crossing) const {
+    return orientation_.flipped[components_.of_triangle[crossing.triangle]] !=
+           components_.is_turned(crossing.triangle);
 }
 
 void Pairing::unite() {

@@ -25,6 +25,8 @@ public:
     std::span<const Interval> operator()(std::span<const Crossing> crossings, bool& thin);
 
 private:
+    // Its front faces into the solid.
+    [[nodiscard]] bool is_flipped(const Crossing& crossing) const;
     void unite();
 
     const Components& components_;
