@@ -63,6 +63,8 @@ TEST_F(Memory, ForThreads) {
 
 // The bakes of a batch hold two descriptors each.
 TEST(Descriptors, TooFewForAllJobsAreEnoughForSome) {
+    if (is_sanitized)
+        GTEST_SKIP() << "UndefinedBehaviorSanitizer takes what it needs a descriptor for as wrong";
     BatchFolder folder;
     for (int i = 0; i < 30; ++i) folder.add(std::to_string(i) + "/a.obj", obj(1));
     const Outcome outcome = run_spa({"batch", "in", "-o", "out", "--size", "16", "--jobs", "16"},
