@@ -189,8 +189,7 @@ Verb bench_verb() {
                 ->default_str("all");
             add_optional(app, "--threads", "N,...",
                          "Numbers of threads, divided by commas; trace: those after the first for chords "
-                         "alone; layers: "
-                         "one number, for all but the times, 0 = all cores",
+                         "alone; layers: one number, for all but the times, 0 = all cores",
                          given.threads)
                 ->default_str("1,2; layers: 0");
             add_optional(app, "--runs", "N", "Times that everything is measured", given.runs)

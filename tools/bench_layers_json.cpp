@@ -71,14 +71,9 @@ Json mesh_json(const LayersMesh& mesh, const std::string& source) {
 }
 
 Json bar_json(const LayersBar& bar) {
-    Json json = {{"bar", bar.name},
-                 {"cells", bar.cells},
-                 {"worst_size", bar.worst_size},
-                 {"value", bar.value},
-                 {"limit", bar.limit},
-                 {"unit", bar.unit},
-                 {"asked", bar.at_least ? "at least" : "at most"},
-                 {"reached", bar.reached()}};
+    Json json = {{"bar", bar.name},    {"cells", bar.cells},      {"worst_size", bar.worst_size},
+                 {"value", bar.value}, {"limit", bar.limit},      {"at_least", bar.at_least},
+                 {"unit", bar.unit},   {"reached", bar.reached()}};
     if (!bar.mesh.empty())
         json["mesh"] = bar.mesh;
     else

@@ -93,13 +93,19 @@ std::string script_of(const std::string& title, const std::vector<LayerFigures>&
     std::string text;
     for (std::size_t i = 0; i < std::size(panels); ++i) text += panel_text(rows, bars, i);
     if (text.empty()) return "";
+    const auto [least, most] =
+        std::minmax_element(rows.begin(), rows.end(),
+                            [](const LayerFigures& a, const LayerFigures& b) { return a.cells < b.cells; });
     return "set terminal pngcairo size 1280,560 font 'Sans,10' background rgb 'white'\n"
            "set encoding utf8\nset multiplot title " +
            gnuplot_text(title) +
            " font ',13' noenhanced\nset logscale xy\nset format y '%g'\n"
            "set grid xtics ytics lc rgb '#dddddd' lt 1\nset border 3\nset tics nomirror\n"
            "set xtics (16, 32, 64, 128, 256, 512, 1024, 2048)\n"
-           "set xlabel 'N, cells a side of the map'\nset offsets graph 0.05, graph 0.05, 0, 0\n"
+           "set xrange [" +
+           significant(least->cells / 1.3, 4) + ":" + significant(most->cells * 1.3, 4) +
+           "]\n"
+           "set xlabel 'N, cells a side of the map'\n"
            "set bmargin at screen 0.24\nset tmargin at screen 0.86\n" +
            text + "unset multiplot\n";
 }

@@ -18,7 +18,7 @@ using measure::LayersBenchmark;
 using measure::LayersMesh;
 using measure::Reconstruction;
 
-constexpr std::size_t name_width = 14;
+constexpr std::size_t name_width = 10;
 constexpr std::size_t text_width = 108;
 
 // Of 100.
@@ -124,14 +124,13 @@ std::string bars_text(const std::vector<LayersBar>& bars) {
 }
 
 constexpr const char* legend =
-    "Random chords of the sphere, % of all of them: false: the map alone is hit; miss: the mesh alone is;\n"
-    "in f, in m: those of them that no silhouette passes within two texels (2/N R each). mean, p95, p99: "
-    "|dt|\n"
-    "in R where both are hit; normal: degrees. ns: a ray of a stream, one thread, median; x K=1: of each "
-    "run,\n"
-    "to one interval of the same kind, median. KiB: the file; folds: by how much fold records make it "
-    "larger.\n"
-    "mixed: of the map's triangles. K: intervals.\n\n";
+    "one depth: the outermost surface, solid to the centre. tangents, folds: K intervals; where neighbouring "
+    "samples see different surfaces, joined by the planes of stored normals, or by fold records.\n\n"
+    "Random chords of the sphere, % of all of them: false: the map alone is hit; miss: the mesh alone is; in "
+    "f, in m: those of them that no silhouette passes within two texels of 2/N R. mean, p95, p99: |dt| in R "
+    "where both are hit; normal: degrees. ns: a ray of a stream, one thread, median; x K=1: of each run, to "
+    "one interval of the same kind, median. KiB: the file; folds: how much larger fold records make it; "
+    "mixed: of the map's triangles.\n\n";
 
 } // namespace
 
@@ -162,11 +161,9 @@ std::string losses_text(const LayersBenchmark& benchmark) {
     if (bake.unseen_components > 0)
         text += "; " + std::to_string(bake.unseen_components) + " of " +
                 counted(bake.components, "piece", "pieces") + " met no sample";
-    text +=
-        bake.thin_samples == 0
-            ? ". No sample holds surface that bounds no solid."
-            : ". " + share(bake.thin_samples) +
-                  " hold surface that bounds no solid, stored as thin shells that rays seen edge-on pass.";
+    text += bake.thin_samples == 0 ? ". No sample holds surface that bounds no solid."
+                                   : ". " + share(bake.thin_samples) +
+                                         " hold surface that bounds no solid, stored as thin shells.";
     text += " Rays that pass the map where the mesh is hit: " + share_text(figures.missed_hits) + " %, " +
             share_text(figures.interior_missed) +
             " % away from silhouettes; hit where it is not: " + share_text(figures.false_hits) + " %, " +
@@ -183,11 +180,11 @@ std::string losses_text(const LayersBenchmark& benchmark) {
 }
 
 std::string report_text(const LayersReport& report) {
-    std::string text = legend;
+    std::string text = paragraph(legend);
     text += std::to_string(report.rays) + " rays a mesh, " + counted(report.runs, "run", "runs") +
             ", streams by " + report.target + ", centre by " + name(report.center) + "\n\n";
     for (const LayersMesh& mesh : report.meshes) text += mesh_text(mesh);
-    if (!report.mean.empty())
+    if (measure::closed_count(report.meshes) > 1)
         text += "Mean of " + counted(measure::closed_count(report.meshes), "closed mesh", "closed meshes") +
                 "\n" + table(report.mean);
     return text + bars_text(report.bars);

@@ -189,7 +189,7 @@ const char* name(Reconstruction reconstruction) {
 const char* title(Reconstruction reconstruction) {
     switch (reconstruction) {
     case Reconstruction::one_depth: return "one depth";
-    case Reconstruction::tangents: return "tangent planes";
+    case Reconstruction::tangents: return "tangents";
     case Reconstruction::folds: break;
     }
     return "folds";

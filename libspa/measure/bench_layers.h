@@ -29,7 +29,7 @@ enum class Reconstruction : std::uint8_t {
     folds,     // intervals; in mixed triangles what fold records say (folds.h)
 };
 const char* name(Reconstruction reconstruction);
-// For tables: "one depth", "tangent planes", "folds".
+// For tables: "one depth", "tangents", "folds".
 const char* title(Reconstruction reconstruction);
 
 // layers: kept intervals; without a meaning for one depth.
