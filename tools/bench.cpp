@@ -38,7 +38,7 @@ std::vector<std::uint32_t> parse_numbers(const std::string& option, const std::s
 }
 
 std::vector<std::uint32_t> parse_cells(const std::string& option, const std::string& text) {
-    const std::vector<std::uint32_t> sizes = parse_numbers(option, text, 2, max_side);
+    std::vector<std::uint32_t> sizes = parse_numbers(option, text, 2, max_side);
     for (const std::uint32_t cells : sizes)
         if (cells % 2 != 0)
             throw Error(ExitCode::usage, option + ": '" + std::to_string(cells) +
