@@ -66,8 +66,8 @@ std::string error_label(const measure::LayersMesh& mesh, Reconstruction kind, st
     const measure::LayerRow* const row = mesh.benchmark.find(kind, layers, mesh.benchmark.view.cells);
     if (row == nullptr) return "error";
     const measure::LayerFigures figures = figures_of(*row);
-    return "error: " + significant(100 * figures.false_hits, 2) + "% false, " +
-           significant(100 * figures.missed_hits, 2) + "% missed";
+    return "error: " + fixed(100 * figures.false_hits, 2) + "% false, " +
+           fixed(100 * figures.missed_hits, 2) + "% miss";
 }
 
 } // namespace
@@ -79,7 +79,7 @@ Picture layers_sheet(const measure::LayersMesh& mesh) {
         view.layers == 1 ? "one interval"
                          : (view.layers == 2 ? "two" : std::to_string(view.layers)) + std::string(" layers");
     const SheetRow row{
-        "as a camera sees them; false, missed: of random chords",
+        "as a camera sees them; the percentages are of random chords",
         {make_cell("source", draw(view, view.source), scale),
          make_cell("one depth", draw(view, view.one_depth), scale),
          make_cell(error_label(mesh, Reconstruction::one_depth, 1), draw_errors(view, view.one_depth), scale),

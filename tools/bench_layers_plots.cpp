@@ -117,9 +117,10 @@ std::vector<Plot> layers_plots(const LayersReport& report) {
     const auto add = [&](const std::string& name, std::string script) {
         if (!script.empty()) plots.push_back({name, std::move(script)});
     };
-    add("layers-mean", script_of("Mean of " + std::to_string(measure::closed_count(report.meshes)) +
-                                     " closed meshes: random chords",
-                                 report.mean, report.bars));
+    const std::size_t closed = measure::closed_count(report.meshes);
+    if (closed > 1)
+        add("layers-mean", script_of("Mean of " + std::to_string(closed) + " closed meshes: random chords",
+                                     report.mean, report.bars));
     for (const measure::LayersMesh& mesh : report.meshes) {
         std::vector<LayerFigures> rows;
         for (const measure::LayerRow& row : mesh.benchmark.rows) rows.push_back(figures_of(row));

@@ -9,8 +9,8 @@
 
 namespace spa::tools {
 
-// One of the mean of the closed meshes, if there are any, with its bars, and one a mesh: false hits, missed
-// hits and mean |dt|.
+// One of the mean of the closed meshes, if there are several, with its bars, and one a mesh: false hits,
+// missed hits and mean |dt|.
 std::vector<Plot> layers_plots(const LayersReport& report);
 
 } // namespace spa::tools
