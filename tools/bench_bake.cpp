@@ -90,6 +90,7 @@ Arguments complete(const BenchArguments& given) {
                                            {"--quick", given.quick}})
         refuse("bake", option, is_given);
     refuse_paper_options("bake", given);
+    refuse_layers_options("bake", given);
     Arguments arguments;
     if (given.levels) set_levels(arguments, *given.levels);
     if (given.sizes) set_sizes(arguments, *given.sizes);

@@ -132,6 +132,7 @@ Arguments complete(const BenchArguments& given) {
           std::pair("--rays", given.rays), std::pair("--threads", given.threads),
           std::pair("--sets", given.sets), std::pair("--sizes", given.sizes)})
         refuse("paper", option, value.has_value());
+    refuse_layers_options("paper", given);
     if (given.out.empty()) throw Error(ExitCode::usage, "'spa bench paper' wants --out DIR");
     Arguments arguments;
     if (given.levels) arguments.tables.levels = parse_levels(*given.levels);

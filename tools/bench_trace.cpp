@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_arguments.h"
+#include "bench_models.h"
 #include "bench_trace_plots.h"
 #include "bench_trace_report.h"
 #include "gnuplot.h"
@@ -9,10 +10,8 @@
 #include "progress.h"
 
 #include "../formats/container/writer.h"
-#include "../formats/import/import.h"
 #include "../libspa/measure/stopwatch.h"
 #include "../libspa/trace/trace.h"
-#include "../samples/samples.h"
 
 #include <nlohmann/json.hpp>
 
@@ -61,18 +60,13 @@ void make_quick(Arguments& arguments) {
 
 Arguments complete(const BenchArguments& given) {
     refuse_paper_options("trace", given);
+    refuse_layers_options("trace", given);
     refuse("trace", "--levels", given.levels.has_value());
     Arguments arguments;
     measure::TraceBenchOptions& bench = arguments.bench;
     if (given.quick) make_quick(arguments);
     if (given.models) arguments.models = split(*given.models, ',');
-    if (given.sizes) {
-        bench.cells = parse_numbers("--sizes", *given.sizes, 2, max_side);
-        for (const std::uint32_t cells : bench.cells)
-            if (cells % 2 != 0)
-                throw Error(ExitCode::usage, "--sizes: '" + std::to_string(cells) +
-                                                 "' is odd; the cells a side of an octahedral map are even");
-    }
+    if (given.sizes) bench.cells = parse_cells("--sizes", *given.sizes);
     if (given.layers) bench.layers = parse_numbers("--layers", *given.layers, 1, max_layers);
     if (given.rays) bench.rays = parse_number("--rays", *given.rays, 1, max_rays);
     if (given.runs) bench.runs = parse_number("--runs", *given.runs, 1, max_runs);
@@ -83,18 +77,6 @@ Arguments complete(const BenchArguments& given) {
         bench.families = parse_names("--only", *given.only, std::span<const measure::Family>(all));
     }
     return arguments;
-}
-
-// "NAME:LEVEL" or "NAME" of a sample, or a file. A file of a sample's name wants "./".
-Model load(const std::string& given) {
-    const std::size_t colon = given.find(':');
-    const std::string name = given.substr(0, colon);
-    const samples::Sample* const sample = samples::find_sample(name);
-    if (sample == nullptr) return import::read_model(given).model;
-    const int level = colon == std::string::npos
-                          ? sample->default_level
-                          : int(parse_number("--models", given.substr(colon + 1), 0, samples::max_level));
-    return samples::make_sample(name, level);
 }
 
 measure::FileTrip through_file(const SphericalMap& map, const trace::Ray& ray, unsigned runs) {
@@ -148,7 +130,7 @@ TraceModel measure_model(const std::string& name, measure::TraceBenchOptions opt
         progress.update(share);
         return interrupt_signal() == 0;
     };
-    TraceModel result{name, measure::bench_trace(load(name), options), {}};
+    TraceModel result{name, measure::bench_trace(load_bench_model("--models", name), options), {}};
     result.bars = measure::trace_bars(name, result.benchmark);
     return result;
 }

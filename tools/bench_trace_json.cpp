@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_trace_report.h"
 
+#include "bench_json.h"
+
 #include <nlohmann/json.hpp>
 
 namespace spa::tools {
@@ -10,27 +12,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 using measure::Bar;
 using measure::CallKind;
-using measure::Confusion;
-using measure::Distribution;
 using measure::ErrorParts;
 using measure::MethodReport;
 using measure::RayErrors;
 using measure::SetErrors;
-using measure::Spread;
 using measure::TraceTiming;
-
-Json to_json(const Spread& spread) {
-    return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}, {"runs", spread.runs}};
-}
-
-Json to_json(const Confusion& c) {
-    return {{"both", c.both}, {"neither", c.neither}, {"missed", c.missed}, {"extra", c.extra}};
-}
-
-Json to_json(const Distribution& d) {
-    return {{"count", d.count}, {"mean", d.mean}, {"rms", d.rms}, {"median", d.median},
-            {"p95", d.p95},     {"p99", d.p99},   {"max", d.max}};
-}
 
 Json to_json(const ErrorParts& parts) {
     Json json = {{"E_star", parts.star}, {"E_res", parts.resolution}, {"E_quant", parts.quantization}};
@@ -43,13 +29,13 @@ Json set_json(const MethodReport& method, const SetErrors& set) {
     const RayErrors& e = set.errors;
     Json json = {{"set", measure::name(set.set)},
                  {"band_width", set.band_width},
-                 {"band", to_json(e.band)},
-                 {"interior", to_json(e.interior)}};
+                 {"band", confusion_json(e.band)},
+                 {"interior", confusion_json(e.interior)}};
     if (!measure::asks_occlusion(set.set)) {
-        json["distance"] = to_json(e.distance);
-        json["interior_distance"] = to_json(e.interior_distance);
-        if (e.normal.count > 0) json["normal_angle"] = to_json(e.normal);
-        if (e.color.count > 0) json["color_difference"] = to_json(e.color);
+        json["distance"] = full_distribution_json(e.distance);
+        json["interior_distance"] = full_distribution_json(e.interior_distance);
+        if (e.normal.count > 0) json["normal_angle"] = full_distribution_json(e.normal);
+        if (e.color.count > 0) json["color_difference"] = full_distribution_json(e.color);
     }
     Json times = Json::array();
     for (const TraceTiming& timing : method.timings) {
@@ -57,7 +43,7 @@ Json set_json(const MethodReport& method, const SetErrors& set) {
         times.push_back({{"threads", timing.threads},
                          {"kind", timing.kind == CallKind::single ? "single" : "stream"},
                          {"call", timing.call},
-                         {"ns", to_json(timing.ns)}});
+                         {"ns", spread_json(timing.ns)}});
     }
     json["times"] = std::move(times);
     return json;
@@ -71,7 +57,7 @@ Json method_json(const MethodReport& method) {
     if (method.target_error > 0) json["target_error"] = method.target_error;
     json["bytes"] = method.bytes;
     if (method.file)
-        json["file"] = {{"bytes", method.file->bytes}, {"first_ray", to_json(method.file->first_ray)}};
+        json["file"] = {{"bytes", method.file->bytes}, {"first_ray", spread_json(method.file->first_ray)}};
     if (method.build_seconds) json["build_seconds"] = *method.build_seconds;
     if (method.build_seconds_cores) json["build_seconds_all_cores"] = *method.build_seconds_cores;
     if (method.parts) json["error_parts"] = to_json(*method.parts);

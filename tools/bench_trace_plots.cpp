@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_trace_plots.h"
 
+#include "bench_models.h"
+#include "gnuplot.h"
 #include "text.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <functional>
 
 namespace spa::tools {
@@ -102,13 +103,6 @@ std::string data_block(const std::string& name, const Series& series) {
     return text + "END\n";
 }
 
-// In gnuplot's single quotes.
-std::string quoted(const std::string& text) {
-    std::string result = "'";
-    for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-    return result + "'";
-}
-
 // What one of the two panels shows to the right.
 struct Axis {
     const char* title;
@@ -122,7 +116,7 @@ std::string plot_command(const std::vector<Series>& series, const Axis& axis) {
         const std::string data =
             "$series" + std::to_string(i) + " using " + std::to_string(axis.column) + ":3";
         if (i > 0) text += ", \\\n     ";
-        text += data + " with linespoints " + series[i].style + " title " + quoted(series[i].title);
+        text += data + " with linespoints " + series[i].style + " title " + gnuplot_text(series[i].title);
         // The sizes stand beside the streams of one layer, and N beside the fan.
         if (i == 0 || series[i].title.starts_with("paper"))
             text += ", \\\n     " + data + ":4 with labels offset 0.9,0.6 font ',9' notitle";
@@ -177,8 +171,8 @@ std::string script_of(const TraceModel& model) {
     for (std::size_t i = 0; i < series.size(); ++i)
         text += data_block("series" + std::to_string(i), series[i]);
     text += "set multiplot title " +
-            quoted(model.name + ", " + std::to_string(model.benchmark.triangles) +
-                   " triangles: random chords, one thread") +
+            gnuplot_text(model.name + ", " + std::to_string(model.benchmark.triangles) +
+                         " triangles: random chords, one thread") +
             " font ',13' noenhanced\n"
             "set logscale xy\n"
             "set format y '10^{%T}'\n"
@@ -196,22 +190,12 @@ std::string script_of(const TraceModel& model) {
     return text;
 }
 
-// Letters, digits and "-" of the model's name, without folders and extension.
-std::string file_name(const std::string& model) {
-    const std::size_t slash = model.find_last_of('/');
-    std::string name = slash == std::string::npos ? model : model.substr(slash + 1);
-    name = name.substr(0, name.find_last_of('.'));
-    for (char& c : name)
-        if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '-';
-    return "trace-" + name;
-}
-
 } // namespace
 
 std::vector<Plot> trace_plots(const TraceReport& report) {
     std::vector<Plot> plots;
     for (const TraceModel& model : report.models) {
-        Plot plot{file_name(model.name), script_of(model)};
+        Plot plot{"trace-" + bench_file_name(model.name), script_of(model)};
         if (!plot.script.empty()) plots.push_back(std::move(plot));
     }
     return plots;

@@ -36,6 +36,12 @@ struct Actions {
 
 } // namespace
 
+std::string gnuplot_text(const std::string& text) {
+    std::string quoted = "'";
+    for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+    return quoted + "'";
+}
+
 std::vector<std::byte> run_gnuplot(const std::string& script) {
     const File in = temporary_file();
     const File out = temporary_file();

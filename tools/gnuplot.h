@@ -8,6 +8,9 @@
 
 namespace spa::tools {
 
+// For a script, in gnuplot's single quotes.
+std::string gnuplot_text(const std::string& text);
+
 // Throws Error{unsupported} if gnuplot is not found, or does not run.
 void require_gnuplot();
 

@@ -22,9 +22,10 @@ Rgb heat_color(const HeatScale& scale, double value) {
     return viridis(std::clamp(std::log(value / scale.low) / std::log(scale.high / scale.low), 0.0, 1.0));
 }
 
-SheetLegend heat_legend(const std::string& missing, const std::string& extra) {
+SheetLegend heat_legend(const std::string& missing, const std::string& extra,
+                        std::span<const HeatScale> scales) {
     SheetLegend legend;
-    for (const HeatScale& scale : {depth_heat, normal_heat, color_heat})
+    for (const HeatScale& scale : scales)
         legend.text(std::string(scale.what) + " " + number(scale.low) + " ")
             .bar(viridis)
             .text(" " + number(scale.high) + " " + scale.unit + "   ");

@@ -110,16 +110,12 @@ private:
     }
 
     static double nanoseconds(const TraceMethod& method, RayBatch& batch, CallKind kind, unsigned threads) {
+        if (threads == 1) return one_thread_ns(method, batch, kind);
         method.reset(batch, kind);
-        const std::size_t count = batch.rays().size();
         double seconds = 0;
-        if (threads == 1) {
-            seconds = thread_seconds_of([&] { method.trace(batch, kind, 0, count); });
-        } else {
-            tbb::task_arena arena{int(threads)};
-            arena.execute([&] { seconds = seconds_of([&] { trace_all(method, batch, kind); }); });
-        }
-        return seconds * 1e9 / double(count);
+        tbb::task_arena arena{int(threads)};
+        arena.execute([&] { seconds = seconds_of([&] { trace_all(method, batch, kind); }); });
+        return seconds * 1e9 / double(batch.rays().size());
     }
 
     const Model& model_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trace_methods.h"
 
+#include "stopwatch.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -54,6 +56,12 @@ std::span<const std::uint8_t> blocked_of(const TraceMethod& method, RayBatch& ba
     trace_all(method, batch, kind);
     method.store_blocked(batch, kind);
     return batch.blocked;
+}
+
+double one_thread_ns(const TraceMethod& method, RayBatch& batch, CallKind kind) {
+    method.reset(batch, kind);
+    const std::size_t count = batch.rays().size();
+    return thread_seconds_of([&] { method.trace(batch, kind, 0, count); }) * 1e9 / double(count);
 }
 
 } // namespace spa::measure

@@ -95,6 +95,9 @@ CallKind usual_kind(const TraceMethod& method);
 std::vector<RayAnswer> answers_of(const TraceMethod& method, RayBatch& batch);
 std::span<const std::uint8_t> blocked_of(const TraceMethod& method, RayBatch& batch);
 
+// Nanoseconds a ray of all rays, one after the other on this thread, by its own time (stopwatch.h).
+double one_thread_ns(const TraceMethod& method, RayBatch& batch, CallKind kind);
+
 // Of a map; owns its trace image. part: need not outlive it. tests: of the fan, 0 = N(d2). colours: whether
 // answers have them.
 std::unique_ptr<TraceMethod> map_method(Family family, const Part& part, std::uint32_t layers,

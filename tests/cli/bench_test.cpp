@@ -85,7 +85,7 @@ TEST(BenchVerb, RefusesWhatItDoesNotKnow) {
         EXPECT_EQ(outcome.exit_code, 1);
         EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
     };
-    refused({"bench", "draw"}, "'draw' is not a benchmark; there are bake, trace");
+    refused({"bench", "draw"}, "'draw' is not a benchmark; there are bake, trace, layers");
     refused(tiny({"--models", "boot"}), "--models is not for 'spa bench bake'");
     refused(tiny({"--only", "radiall"}), "--only: 'radiall'");
     refused(tiny({"--sizes", "255"}), "is odd");
