@@ -31,6 +31,9 @@ FileBytes compressed_file(container::Scheme scheme);
 // A last section "XTRA" of a kind that no reader knows.
 FileBytes with_unknown_section(std::uint32_t flags, std::uint16_t minor = container::version_minor);
 
+// The same with a value at an offset of the entry of the section of a type that is there once.
+FileBytes with_entry_value(std::uint32_t type, std::size_t field, std::uint32_t value);
+
 // The same with these records and all triangles mixed but those of these bits.
 FileBytes with_folds(const std::vector<FoldRecord>& records, const std::vector<std::uint64_t>& pure = {});
 
@@ -38,7 +41,10 @@ FileBytes with_folds(const std::vector<FoldRecord>& records, const std::vector<s
 FileBytes with_f32_depth(float value);
 
 // Files that a checker with default limits refuses with exactly this issue.
-std::multimap<container::Issue, std::function<FileBytes()>> file_fixtures();
+using Fixtures = std::multimap<container::Issue, std::function<FileBytes()>>;
+Fixtures file_fixtures();
+// Those of them that are about fold records.
+Fixtures fold_fixtures();
 
 // Limits under which good_file() is refused with exactly this issue.
 std::map<container::Issue, container::Limits> limit_fixtures();
