@@ -45,8 +45,11 @@ SPA_BEGIN
 #define SPA_LIST_WORDS 4u
 // Words of a prism.
 #define SPA_PRISM_WORDS 8u // outer plane (3), inner plane (3), properties, place of the half-planes
-// Properties: bits 0-15 layer, 16-23 number of half-planes, bit 24 + n: half-plane n is an open wall.
-#define SPA_PRISM_OPEN 0x1000000u
+// Properties: bits 0-9 layer of the outer end, 10-19 of the inner end, 20-23 number of half-planes, bit 24 +
+// n: half-plane n is an open wall.
+#define SPA_PRISM_PROPERTIES(outer_layer, inner_layer, half_planes, open)                                    \
+    ((outer_layer) | (inner_layer) << 10u | (half_planes) << 20u | (open) << 24u)
+#define SPA_MAX_LAYERS 1024u
 // Of a list of prisms that stands for a pure triangle.
 #define SPA_PURE 0xFFFFFFFFu
 
@@ -59,7 +62,8 @@ struct SpaPlane {
 struct SpaPrism {
     SpaPlane outer;
     SpaPlane inner;
-    uint layer;
+    uint layer;       // of the outer end, and of walls
+    uint inner_layer; // of the inner end
     uint half_planes; // how many
     uint first;       // where
     uint open;        // bit n: half-plane n is an open wall
@@ -156,6 +160,7 @@ SPA_FUNCTION SpaPrism spa_prism(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, uin
         prism.inner.v = 0.0f;
         if (map.surfaces > 1u) prism.inner = spa_sample_plane(map, tri, 2u * index + 1u);
         prism.layer = index;
+        prism.inner_layer = index;
         prism.half_planes = 0u;
         prism.first = 0u;
         prism.open = 0u;
@@ -164,8 +169,9 @@ SPA_FUNCTION SpaPrism spa_prism(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, uin
         uint properties = spa_load(map.words, place + 6u);
         prism.outer = spa_load_plane(map, place);
         prism.inner = spa_load_plane(map, place + 3u);
-        prism.layer = properties & 0xFFFFu;
-        prism.half_planes = (properties >> 16u) & 0xFFu;
+        prism.layer = properties & 0x3FFu;
+        prism.inner_layer = (properties >> 10u) & 0x3FFu;
+        prism.half_planes = (properties >> 20u) & 0xFu;
         prism.first = spa_load(map.words, place + 7u);
         prism.open = properties >> 24u;
     }
@@ -180,6 +186,7 @@ SPA_FUNCTION SpaPrism spa_no_prism() {
     prism.outer.v = 0.0f;
     prism.inner = prism.outer;
     prism.layer = 0u;
+    prism.inner_layer = 0u;
     prism.half_planes = 0u;
     prism.first = 0u;
     prism.open = 0u;
@@ -273,7 +280,10 @@ SPA_FUNCTION SpaEvent spa_event(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, SPA
     event.layer = prism.layer;
     event.front = front;
     event.plane = prism.outer;
-    if (by == SPA_BY_INNER) event.plane = prism.inner;
+    if (by == SPA_BY_INNER) {
+        event.plane = prism.inner;
+        event.layer = prism.inner_layer;
+    }
     if (by >= SPA_BY_HALF_PLANE)
         event.plane = spa_load_plane(map, prism.first + 3u * (by - SPA_BY_HALF_PLANE));
     if (by == SPA_BY_EDGE) {
@@ -292,6 +302,7 @@ SPA_FUNCTION SpaEvent spa_event(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, SPA
         } else if (rise * climbs >= 0.0f && abs(w - spa_at(prism.inner, u, v)) <= SPA_STEP * w) {
             event.by = SPA_BY_INNER;
             event.plane = prism.inner;
+            event.layer = prism.inner_layer;
         } else {
             // Towards the solid: into this triangle, or back into the one before it.
             event.plane = spa_edge(tri.beyond, u, v, front ? 1.0f : -1.0f);

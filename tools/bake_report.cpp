@@ -38,6 +38,13 @@ Json layers_json(const bake::Report& bake) {
     return layers;
 }
 
+Json folds_json(const bake::FoldStatistics& folds) {
+    return {
+        {"edges", folds.edges}, {"searched", folds.searched}, {"directions", folds.directions},
+        {"pairs", folds.pairs}, {"singles", folds.singles},   {"unresolved", folds.unresolved},
+    };
+}
+
 // The counts; without what depends on the machine.
 Json counts_json(const BakeFacts& facts) {
     const import::Report& source = facts.source.report;
@@ -46,6 +53,9 @@ Json counts_json(const BakeFacts& facts) {
         {"triangles", bake.triangles},
         {"components", bake.components},
         {"open_edges", bake.open_edges},
+        {"turned_triangles", bake.turned_triangles},
+        {"flipped_components", bake.flipped_components},
+        {"solid_components", bake.solid_components},
         {"edge_on_triangles", bake.edge_on_triangles},
         {"unseen_components", bake.unseen_components},
         {"back_facing_samples", bake.back_facing_samples},
@@ -56,6 +66,7 @@ Json counts_json(const BakeFacts& facts) {
         {"center_moved", bake.center_moved},
         {"layers", layers_json(bake)},
         {"mixed_triangles", bake.mixed_triangles ? Json(*bake.mixed_triangles) : Json(nullptr)},
+        {"folds", bake.folds ? folds_json(*bake.folds) : Json(nullptr)},
         {"dropped_degenerate", source.dropped_degenerate},
         {"dropped_non_finite", source.dropped_non_finite},
         {"ignored_primitives", source.ignored_primitives},
@@ -164,6 +175,11 @@ std::string report_text(const BakeFacts& facts, std::uint64_t output_bytes, doub
     if (bake.mixed_triangles)
         text += line("mixed", percent(*bake.mixed_triangles) +
                                   " of the triangles between samples: their corners see different surfaces");
+    if (bake.folds)
+        text += line("folds", std::to_string(bake.folds->pairs) + " pairs of surfaces that meet and " +
+                                  std::to_string(bake.folds->singles) + " that end alone, on " +
+                                  std::to_string(bake.folds->searched) + " of " +
+                                  std::to_string(bake.folds->edges) + " edges");
     if (facts.measurement != nullptr) text += line("measured", measured_text(*facts.measurement));
     text += line("bytes", std::to_string(output_bytes) + " (" + byte_count(output_bytes) + ")");
     return text + line("time", fixed(seconds, 2) + " s");

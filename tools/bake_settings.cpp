@@ -46,6 +46,9 @@ struct Given {
     std::optional<std::uint32_t> layers;
 };
 
+enum class Folds : std::uint8_t { off, on };
+const char* name(Folds folds) { return folds == Folds::on ? "on" : "off"; }
+
 Grid octahedral_grid(std::uint32_t cells) { return {Mapping::octahedral, cells + 1, cells + 1}; }
 
 Grid parse_size(const std::string& option, const std::string& text, Mapping mapping) {
@@ -122,6 +125,12 @@ void define_map_options(CLI::App& app, Given& given) {
         "takes everything behind it as solid; layers with nothing in them are not written",
         [&given](const std::string& text) { given.layers = parse_number("--layers", text, 1, max_layers); })
         ->default_str(std::to_string(defaults.layers));
+    add_choice<Folds>(
+        app, "--folds", {Folds::on, Folds::off},
+        "Whether octahedral maps of two layers and more say where between samples surfaces end "
+        "and how they go on: about a tenth of the file, for far fewer wrong hits at silhouettes",
+        [&given](Folds folds) { given.settings.options.folds = folds == Folds::on; })
+        ->default_str(name(defaults.folds ? Folds::on : Folds::off));
     add_choice<bake::Frame>(app, "--frame", {bake::Frame::sphere, bake::Frame::affine},
                             "The space that is baked: object space, or one stretched so that the oriented "
                             "bounding box is a cube, which suits long and flat objects",
@@ -196,6 +205,7 @@ nlohmann::ordered_json options_json(const BakeSettings& settings) {
         {"depth", name(options.depth)},
         {"normals", name(options.normals)},
         {"layers", options.layers},
+        {"folds", name(options.folds ? Folds::on : Folds::off)},
         {"frame", name(options.frame)},
         {"center", name(options.center)},
         {"baker", name(options.baker)},

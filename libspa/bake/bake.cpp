@@ -4,6 +4,7 @@
 #include "arena.h"
 #include "center.h"
 #include "color_image.h"
+#include "find_folds.h"
 #include "intervals.h"
 #include "mixed.h"
 #include "orbit.h"
@@ -100,8 +101,11 @@ public:
             report_.back_facing_samples = back_facing_samples(crossings);
             for (std::uint32_t c = 0; c < components_.count; ++c) {
                 if (!orientation_.seen[c]) ++report_.unseen_components;
-                if (!options_.one_depth() && orientation_.solid[c]) report_.center_inside = true;
+                if (options_.one_depth()) continue;
+                if (orientation_.flipped[c]) ++report_.flipped_components;
+                if (orientation_.solid[c]) ++report_.solid_components;
             }
+            if (report_.solid_components > 0) report_.center_inside = true;
         }
         if (options_.one_depth()) return outermost_surface(crossings);
         IntervalStatistics statistics;
@@ -113,6 +117,9 @@ public:
         }
         return surfaces;
     }
+
+    // After the first cast.
+    [[nodiscard]] const Orientation& orientation() const { return orientation_; }
 
 private:
     const Caster& caster_;
@@ -204,6 +211,8 @@ Result bake_with(const Caster& cast, const Model& model, const Options& options,
         report.triangles = model.triangles.size();
         report.components = components.count;
         report.open_edges = components.open_edges;
+        report.turned_triangles =
+            std::uint64_t(std::count(components.turned.begin(), components.turned.end(), 1));
 
         const Grid color_grid = fine_grid(options.color_grid, options.samples);
         const bool shared = color_grid == options.grid;
@@ -228,7 +237,15 @@ Result bake_with(const Caster& cast, const Model& model, const Options& options,
         part.center_inside = report.center_inside;
         pack_layers(shape, shared ? shape : color, options, part, result.map);
         if (part.mapping == Mapping::octahedral) {
-            pack_mixed(mixed_triangles(shape, face_normals(centered)), part, result.map);
+            const std::uint32_t cells = options.grid.width - 1;
+            std::vector<std::uint8_t> edges = match_edges(shape, face_normals(centered));
+            if (options.folds && !options.one_depth() && cells <= most_fold_cells &&
+                options.layers <= most_fold_layers) {
+                const Folds folds = find_folds(centered, components, surfaces.orientation(), shape, edges);
+                report.folds = folds.statistics;
+                pack_folds(folds.records, part, result.map);
+            }
+            pack_mixed(mixed_triangles(cells, edges), part, result.map);
             report.mixed_triangles = mixed_share(part.mixed);
         }
         for (std::size_t k = 0; k < part.layers.size(); ++k) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "intervals.h"
 
+#include "pairing.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -11,90 +13,6 @@
 
 namespace spa::bake {
 namespace {
-
-struct Interval {
-    SurfacePoint outer;
-    SurfacePoint inner; // radius 0: reaches the centre
-};
-
-SurfacePoint point(const Crossing& crossing, bool turn) {
-    return {crossing.radius, crossing.triangle, turn ? -crossing.normal : crossing.normal, crossing.color,
-            false};
-}
-
-// The shell's normals face away from it on both sides, whichever way the triangle is wound.
-Interval thin_shell(const Crossing& crossing) {
-    Interval shell;
-    shell.outer = point(crossing, !crossing.front_facing);
-    shell.inner = point(crossing, crossing.front_facing);
-    shell.inner.placed = true;
-    // Half the radius if the shell is at the centre: the inner end must stay a surface.
-    shell.inner.radius = std::max(crossing.radius - shell_thickness, crossing.radius / 2);
-    return shell;
-}
-
-class Pairing {
-public:
-    Pairing(const Components& components, const Orientation& orientation)
-        : components_(components), orientation_(orientation) {}
-
-    // The intervals of one sample, outermost first, disjoint. Valid until the next call.
-    std::span<const Interval> operator()(std::span<const Crossing> crossings, bool& thin) {
-        intervals_.clear();
-        open_.clear();
-        thin = false;
-        for (const Crossing& crossing : crossings) {
-            const std::uint32_t component = components_.of_triangle[crossing.triangle];
-            const bool flipped = orientation_.flipped[component];
-            if (crossing.front_facing != flipped) {
-                open_.push_back(&crossing);
-                continue;
-            }
-            const auto entry = std::find_if(open_.rbegin(), open_.rend(), [&](const Crossing* c) {
-                return components_.of_triangle[c->triangle] == component;
-            });
-            if (entry == open_.rend()) {
-                intervals_.push_back(thin_shell(crossing));
-                thin = true;
-            } else {
-                intervals_.push_back({point(**entry, flipped), point(crossing, flipped)});
-                open_.erase(std::next(entry).base());
-            }
-        }
-        for (const Crossing* crossing : open_) {
-            const std::uint32_t component = components_.of_triangle[crossing->triangle];
-            if (orientation_.solid[component]) {
-                intervals_.push_back({point(*crossing, orientation_.flipped[component]), {}});
-            } else {
-                intervals_.push_back(thin_shell(*crossing));
-                thin = true;
-            }
-        }
-        unite();
-        return intervals_;
-    }
-
-private:
-    void unite() {
-        std::stable_sort(intervals_.begin(), intervals_.end(), [](const Interval& a, const Interval& b) {
-            return a.outer.radius > b.outer.radius;
-        });
-        std::size_t count = 0;
-        for (const Interval& next : intervals_) {
-            if (count == 0 || next.outer.radius < intervals_[count - 1].inner.radius - merge_distance) {
-                intervals_[count++] = next;
-            } else if (next.inner.radius < intervals_[count - 1].inner.radius) {
-                intervals_[count - 1].inner = next.inner;
-            }
-        }
-        intervals_.resize(count);
-    }
-
-    const Components& components_;
-    const Orientation& orientation_;
-    std::vector<Interval> intervals_;
-    std::vector<const Crossing*> open_;
-};
 
 std::size_t sample_count(const Grid& grid) { return std::size_t(grid.width) * grid.height; }
 
@@ -114,7 +32,7 @@ Orientation orient_components(const CrossingGrid& crossings, const Components& c
         for (std::uint64_t k = crossings.first[s]; k < crossings.first[s + 1]; ++k) {
             const Crossing& c = crossings.crossings[k];
             const std::uint32_t component = components.of_triangle[c.triangle];
-            const double sign = c.front_facing ? 1 : -1;
+            const double sign = c.front_facing != components.is_turned(c.triangle) ? 1 : -1;
             const double cone = angle * double(c.radius) * c.radius * c.radius / 3;
             volume[component] += sign * cone;
             magnitude[component] += cone;
@@ -168,7 +86,7 @@ SurfaceGrid outermost_surface(const CrossingGrid& crossings) {
     for (std::size_t s = 0; s < samples; ++s) {
         if (crossings.first[s] == crossings.first[s + 1]) continue;
         const Crossing& c = crossings.crossings[crossings.first[s]];
-        result.surfaces[0][s] = point(c, !c.front_facing);
+        result.surfaces[0][s] = surface_point(c, !c.front_facing);
     }
     return result;
 }

@@ -32,6 +32,12 @@ ImageView encode_image(OwnedMap& map, const Grid& grid, ElementFormat format, En
     return view;
 }
 
+std::span<const std::byte> keep(const std::vector<std::byte>& bytes, OwnedMap& map) {
+    map.pixels.push_back(std::make_unique<std::byte[]>(bytes.size()));
+    std::copy(bytes.begin(), bytes.end(), map.pixels.back().get());
+    return {map.pixels.back().get(), bytes.size()};
+}
+
 bool has_points(const std::vector<SurfacePoint>& surface) {
     return std::any_of(surface.begin(), surface.end(), [](const SurfacePoint& p) { return p.radius > 0; });
 }
@@ -70,9 +76,11 @@ void pack_layers(const SurfaceGrid& shape, const SurfaceGrid& color, const Optio
 }
 
 void pack_mixed(const std::vector<std::byte>& mixed, Part& part, OwnedMap& map) {
-    map.pixels.push_back(std::make_unique<std::byte[]>(mixed.size()));
-    std::copy(mixed.begin(), mixed.end(), map.pixels.back().get());
-    part.mixed = {map.pixels.back().get(), mixed.size()};
+    part.mixed = keep(mixed, map);
+}
+
+void pack_folds(const std::vector<FoldRecord>& records, Part& part, OwnedMap& map) {
+    if (!records.empty()) part.folds = keep(encode_folds(records), map);
 }
 
 double coverage(const std::vector<SurfacePoint>& surface, const Grid& grid) {

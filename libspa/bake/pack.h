@@ -5,6 +5,8 @@
 #include "bake.h"
 #include "intervals.h"
 
+#include "../core/folds.h"
+
 namespace spa::bake {
 
 // Fills part.layers from surfaces over the depth grid (`shape`) and over the colour grid's sub-texel samples
@@ -17,6 +19,9 @@ void pack_layers(const SurfaceGrid& shape, const SurfaceGrid& color, const Optio
 
 // Fills part.mixed with these bits (mixed.h).
 void pack_mixed(const std::vector<std::byte>& mixed, Part& part, OwnedMap& map);
+
+// Fills part.folds with these records; none of them: it stays empty.
+void pack_folds(const std::vector<FoldRecord>& records, Part& part, OwnedMap& map);
 
 // Share of the sphere's directions, by solid angle, at which a surface has a point.
 double coverage(const std::vector<SurfacePoint>& surface, const Grid& grid);

@@ -39,7 +39,8 @@ void WindingNumbers::Run::add(std::size_t triangle, Vec3d a, Vec3d b, Vec3d c) {
     const std::uint32_t component = numbers_.components_.of_triangle[triangle];
     if (component != component_) flush();
     component_ = component;
-    sum_ += to_fixed(share_of_sphere(a, b, c));
+    const double share = share_of_sphere(a, b, c);
+    sum_ += to_fixed(numbers_.components_.is_turned(std::uint32_t(triangle)) ? -share : share);
 }
 
 void WindingNumbers::Run::flush() {

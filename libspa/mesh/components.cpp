@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components.h"
 
+#include "turned_faces.h"
 #include "weld.h"
 
 #include <tbb/blocked_range.h>
@@ -69,7 +70,12 @@ void each_triangle(const Model& model, Visit&& visit) {
 // Each edge adds a random number of its own to one of many sums, and its partner takes it away again: a sum
 // that is not 0 has an open edge in it. Only the edges of those sums need to be matched one by one, so closed
 // meshes cost one linear pass.
-std::uint64_t count_open_edges(const Model& model, const std::vector<std::uint32_t>& first) {
+struct OpenEdges {
+    std::uint64_t count = 0;
+    bool any_twice = false; // passed twice more in one direction than in the other
+};
+
+OpenEdges count_open_edges(const Model& model, const std::vector<std::uint32_t>& first) {
     constexpr std::uint32_t sums = 1U << 16U; // fit in a cache, one set of them a thread
     const auto each_edge = [&](std::size_t t, auto&& visit) {
         const auto& v = model.triangles[t].vertex;
@@ -110,12 +116,14 @@ std::uint64_t count_open_edges(const Model& model, const std::vector<std::uint32
     std::vector<Edge> edges;
     for (const std::vector<Edge>& list : unbalanced) edges.insert(edges.end(), list.begin(), list.end());
     std::sort(edges.begin(), edges.end(), [](const Edge& l, const Edge& r) { return l.key < r.key; });
-    std::uint64_t open = 0;
+    OpenEdges open;
     for (std::size_t i = 0; i < edges.size();) {
         std::int64_t sum = 0;
         std::size_t j = i;
         for (; j < edges.size() && edges[j].key == edges[i].key; ++j) sum += edges[j].direction;
-        open += std::uint64_t(sum < 0 ? -sum : sum);
+        const auto unmatched = std::uint64_t(sum < 0 ? -sum : sum);
+        open.count += unmatched;
+        if (unmatched > 1) open.any_twice = true;
         i = j;
     }
     return open;
@@ -142,7 +150,9 @@ Components find_components(const Model& model) {
         if (n == no_index) n = result.count++;
         component = n;
     }
-    result.open_edges = count_open_edges(model, first);
+    const OpenEdges open = count_open_edges(model, first);
+    result.open_edges = open.count;
+    if (open.any_twice) result.turned = find_turned_faces(model, first);
     return result;
 }
 

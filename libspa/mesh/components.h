@@ -15,6 +15,14 @@ struct Components {
     // Directed edges (between welded vertices) that lack a partner in the opposite direction: 0 for a closed,
     // consistently oriented mesh. Edges between coincident vertices do not count.
     std::uint64_t open_edges = 0;
+    // Per triangle, 1: wound against its neighbours (turned_faces.h). Empty if no edge is passed twice in one
+    // direction.
+    std::vector<std::uint8_t> turned;
+
+    // Whether a front face counts as a back face, and the other way round.
+    [[nodiscard]] bool is_turned(std::uint32_t triangle) const {
+        return !turned.empty() && turned[triangle] != 0;
+    }
 };
 
 // Vertices at the same position (weld.h) are one; triangles that share a vertex are connected.

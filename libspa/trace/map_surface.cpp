@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "map_surface.h"
 
+#include "fold_cells.h"
+
 #include "../../shaders/spa_cell.h"
 
 #include "../core/element_format.h"
@@ -9,6 +11,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace spa::trace {
 namespace {
@@ -80,6 +83,8 @@ public:
         result_.ranges.resize(std::size_t(4) << (2 * result_.levels));
         result_.cores.resize(result_.ranges.size()); // padding keeps nobody from skipping
         find_extent();
+        // Records speak of all the stored layers.
+        if (!part.folds.empty() && samples.layers() == part.layers.size()) folds_.emplace(part);
     }
 
     MapCells find() {
@@ -130,10 +135,14 @@ private:
                     (w_of(2 * k + 1, corners[i].texel) < far_w))
                     return true;
         if (n == 0 || part_.mixed.empty()) return false;
-        const std::uint32_t x = (t.quadrant & 1U) == 0 ? cells_count_ + t.x : cells_count_ - 1 - t.x;
-        const std::uint32_t y = (t.quadrant & 2U) == 0 ? cells_count_ - 1 - t.y : cells_count_ + t.y;
-        const std::size_t bit = 2 * (std::size_t(y) * (2 * std::size_t(cells_count_)) + x) + t.beyond;
-        return (std::to_integer<unsigned>(part_.mixed[bit / 8]) >> (bit % 8) & 1U) != 0;
+        const TexelIndex cell = cell_of(t);
+        return spa::is_mixed(part_.mixed, triangle_bit(2 * cells_count_, cell.x, cell.y, t.beyond));
+    }
+
+    // On the map, from the top left.
+    [[nodiscard]] TexelIndex cell_of(const MapTriangle& t) const {
+        return {(t.quadrant & 1U) == 0 ? cells_count_ + t.x : cells_count_ - 1 - t.x,
+                (t.quadrant & 2U) == 0 ? cells_count_ - 1 - t.y : cells_count_ + t.y};
     }
 
     // Where the interval that reaches the centre begins.
@@ -282,6 +291,7 @@ private:
     std::uint32_t add_mixed(const MapTriangle& t, Ranges& ranges, float& core) {
         const std::array<Corner, 3> corners = corners_of(samples_.grid, t);
         std::uint32_t count = 0;
+        if (folds_ && add_folds(t, corners, ranges, core, count)) return count;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t n = intervals_at(corners[i].texel);
             if (core_at(corners[i].texel) >= far_w) core = far_w;
@@ -292,6 +302,52 @@ private:
         }
         return count;
     }
+
+    // False: there are none that make sense.
+    bool add_folds(const MapTriangle& t, const std::array<Corner, 3>& corners, Ranges& ranges, float& core,
+                   std::uint32_t& count) {
+        const TexelIndex cell = cell_of(t);
+        const std::array<TexelIndex, 3> order =
+            triangle_corners(samples_.grid.width - 1, cell.x, cell.y, t.beyond);
+        std::array<SampleCrossings, 3> crossings;
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::uint32_t s = 0; s < samples_.surfaces && w_of(s, order[i]) < far_w; ++s)
+                crossings[i].push_back(double(w_of(s, order[i])));
+        double begins = 0;
+        if (!folds_->triangle(cell.x, cell.y, t.beyond, crossings, prisms_, begins)) return false;
+        // Half-planes come before the prisms that refer to them: prisms stand one behind the other.
+        core = std::max(core, float(begins));
+        for (const FoldPrism& prism : prisms_) {
+            Range range{far_w, 0};
+            for (const CellPoint& p : prism.corners) {
+                const double outer = prism.outer.at(p.u, p.v);
+                range.low = std::min(range.low, float(outer));
+                result_.w_max = std::max(result_.w_max, float(outer));
+                const double inner = prism.to_center ? double(far_w) : prism.inner.at(p.u, p.v);
+                range.high = std::max(range.high, float(inner));
+                const Corner& own = corners[0];
+                extend(point_at(own, {p.u - own.u, p.v - own.v}, t, outer));
+            }
+            ranges.add(range);
+            result_.w_min = std::min(result_.w_min, range.low);
+            if (!prism.to_center) result_.w_max = std::max(result_.w_max, range.high);
+            append(to_plane(prism.outer));
+            append(prism.to_center ? Plane{far_w, 0, 0} : to_plane(prism.inner));
+            result_.lists.push_back(SPA_PRISM_PROPERTIES(
+                prism.outer_layer, prism.inner_layer, std::uint32_t(prism.half_planes.size()), prism.open));
+            result_.places.push_back(std::uint32_t(result_.lists.size()));
+            result_.lists.push_back(0);
+        }
+        const std::size_t first = result_.lists.size() - prisms_.size() * SPA_PRISM_WORDS;
+        for (std::size_t n = 0; n < prisms_.size(); ++n) {
+            result_.lists[first + n * SPA_PRISM_WORDS + 7] = std::uint32_t(result_.lists.size());
+            for (const CellPlane& plane : prisms_[n].half_planes) append(to_plane(plane));
+        }
+        count = std::uint32_t(prisms_.size());
+        return true;
+    }
+
+    static Plane to_plane(const CellPlane& plane) { return {float(plane.c), float(plane.u), float(plane.v)}; }
 
     // Gives back the highest w of the outer end.
     float add_region(const MapTriangle& t, const std::array<Corner, 3>& corners, std::size_t index,
@@ -322,11 +378,11 @@ private:
         if (!to_center) result_.w_max = std::max(result_.w_max, range.high);
         append(plane_of(corner, outer, outer_slope));
         append(to_center ? Plane{far_w, 0, 0} : plane_of(corner, inner, inner_slope));
-        std::uint32_t properties = k | 2U << 16U;
+        std::uint32_t open = 0;
         if (to_center && part_.center_inside)
             for (std::uint32_t n = 0; n < 2; ++n)
-                if (intervals_at(corners[neighbors[index][n]].texel) == 0) properties |= SPA_PRISM_OPEN << n;
-        result_.lists.push_back(properties);
+                if (intervals_at(corners[neighbors[index][n]].texel) == 0) open |= 1U << n;
+        result_.lists.push_back(SPA_PRISM_PROPERTIES(k, k, 2U, open));
         result_.places.push_back(std::uint32_t(result_.lists.size()));
         result_.lists.push_back((3 * t.beyond + std::uint32_t(index)) * 6);
         return highest;
@@ -364,6 +420,8 @@ private:
     std::uint32_t cells_count_ = 1;
     MapCells result_;
     bool any_solid_ = false, any_empty_ = false;
+    std::optional<FoldCells> folds_;
+    std::vector<FoldPrism> prisms_; // of the triangle at hand
 };
 
 void read_depths(const ImageView& image, std::vector<float>& depths) {

@@ -178,7 +178,8 @@ TEST(Disk, OutputFolderThatVanishesAgainAndAgain) {
     EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 2) << outcome.err;
     EXPECT_TRUE(folder.maps_are_right());
     EXPECT_EQ(folder.report()["counts"]["not_started"], 0);
-    for (const nlohmann::json& asset : folder.report()["assets"])
+    const nlohmann::json report = folder.report();
+    for (const nlohmann::json& asset : report["assets"])
         EXPECT_TRUE(asset["status"] == "baked" || says(asset["error"], "out/")) << asset;
     EXPECT_EQ(folder.run().exit_code, 0);
     EXPECT_TRUE(folder.is_complete());

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <ostream>
 #include <random>
 
 namespace spa::test {
@@ -18,6 +19,8 @@ struct Case {
     const char* name;
     int signal;
     bool to_group; // as a terminal does
+
+    friend void PrintTo(const Case& given, std::ostream* out) { *out << given.name; }
 };
 
 class InterruptBatch : public testing::TestWithParam<Case> {
@@ -45,7 +48,8 @@ TEST_P(InterruptBatch, EndsTheBakesAndSaysWhatIsLeft) {
     EXPECT_TRUE(says(outcome.out, "5 assets: 0 baked, 0 up to date, 0 failed, 5 not started"));
     EXPECT_TRUE(Orphanage::all_have_ended());
     EXPECT_EQ(folder.report()["stopped_by"], "signal");
-    for (const nlohmann::json& asset : folder.report()["assets"]) {
+    const nlohmann::json report = folder.report();
+    for (const nlohmann::json& asset : report["assets"]) {
         EXPECT_EQ(asset["status"], "not_started");
         EXPECT_EQ(asset["exit_code"], nullptr);
         EXPECT_EQ(asset["error"], nullptr);

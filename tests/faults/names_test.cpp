@@ -106,7 +106,8 @@ TEST(Names, OfFilesThatAreReferredTo) {
     }
     const Outcome outcome = folder.run({"--report", "report.json"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    for (const nlohmann::json& asset : folder.report()["assets"])
+    const nlohmann::json report = folder.report();
+    for (const nlohmann::json& asset : report["assets"])
         EXPECT_TRUE(asset["warnings"].empty()) << asset;
     EXPECT_TRUE(folder.is_complete());
     EXPECT_TRUE(says(folder.run().out, "6 up to date"));
