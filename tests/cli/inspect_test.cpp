@@ -44,10 +44,13 @@ TEST_F(InspectVerb, JsonFollowsItsSchemaAndAddsUp) {
     EXPECT_EQ(report["parts"][0]["size"], "64");
     EXPECT_EQ(report["parts"][0]["center_inside"], false);
     EXPECT_EQ(report["parts"][0]["mixed_triangles"], report["metadata"]["report"]["mixed_triangles"]);
-    EXPECT_EQ(report["sections"].back()["type"], "MIXD");
-    EXPECT_EQ(report["sections"].back()["part"], 0);
+    const json& sections = report["sections"];
+    EXPECT_EQ(sections[sections.size() - 2]["type"], "MIXD");
+    EXPECT_EQ(sections[sections.size() - 2]["part"], 0);
+    EXPECT_EQ(sections.back()["type"], "FOLD");
+    EXPECT_EQ(report["parts"][0]["fold_records"].get<std::uint64_t>() * 10, sections.back()["raw_bytes"]);
     std::uint64_t raw = 0;
-    for (const json& section : report["sections"]) raw += section["raw_bytes"].get<std::uint64_t>();
+    for (const json& section : sections) raw += section["raw_bytes"].get<std::uint64_t>();
     EXPECT_EQ(report["raw_bytes"], raw);
     EXPECT_EQ(report["metadata"]["options"]["size"], "64");
 }
@@ -112,8 +115,9 @@ TEST_F(InspectVerb, TextNamesEverySection) {
     const Outcome outcome = inspect({"torus.spa"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.out.rfind("torus.spa: spherical map, version 1.2, 1 part, ", 0), 0U) << outcome.out;
-    for (const char* text : {"PART", "META", "DPTH", "NRML", "COLR", "MIXD", "octahedral 64, 65x65 samples",
-                             "not measured", "source.name", "torus.glb", "coverage"})
+    for (const char* text :
+         {"PART", "META", "DPTH", "NRML", "COLR", "MIXD", "FOLD", "octahedral 64, 65x65 samples",
+          "not measured", "source.name", "torus.glb", "coverage"})
         EXPECT_NE(outcome.out.find(text), std::string::npos) << text;
 }
 
