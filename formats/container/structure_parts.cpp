@@ -108,7 +108,7 @@ Status check_fold_length(const Structure& structure, const SectionEntry* fold, b
                          std::uint32_t cells) {
     if (fold == nullptr) return {};
     const auto section = std::size_t(fold - structure.sections.data());
-    if (!has_mixed || cells > most_fold_cells)
+    if (!has_mixed || cells > most_numbered_cells)
         return at_section(Issue::fold_part_not_valid, structure, section);
     if (fold->raw_length == 0 || fold->raw_length % fold_record_bytes != 0 ||
         fold->raw_length > most_fold_bytes(cells))

@@ -42,13 +42,13 @@ struct FoldRecord {
 
 constexpr unsigned fold_indices = 64;
 constexpr std::size_t fold_record_bytes = 10;
-constexpr std::uint32_t most_fold_cells = 1U
-                                          << 14U; // a side: of more, edges would not have numbers of 32 bits
+// Edges are numbered, and a map may have records, up to so many cells a side: their numbers have 32 bits.
+constexpr std::uint32_t most_numbered_cells = 1U << 14U;
 
 // In (0, 1], straight in the octant's coordinates.
 constexpr double fold_position(std::uint8_t place) { return (place + 1) / 256.0; }
 
-// Numbers of edges are less than this. cells: N <= most_fold_cells.
+// Numbers of edges are less than this. cells: N <= most_numbered_cells.
 constexpr std::uint32_t edge_count(std::uint32_t cells) { return 3 * (cells + 1) * (cells + 1); }
 // A part has no more bytes of records than this, far above what any holds.
 constexpr std::uint64_t most_fold_bytes(std::uint32_t cells) {

@@ -146,7 +146,7 @@ TEST(FoldIssues, OnlyTheTrianglesAtTheEdgeHaveToBeMixed) {
 
 // Numbers of edges have 32 bits. The images of so large a map are only said to be there.
 TEST(FoldIssues, MapsHaveNoMoreCellsThanEdgesHaveNumbers) {
-    for (const std::uint32_t cells : {most_fold_cells, most_fold_cells + 2}) {
+    for (const std::uint32_t cells : {most_numbered_cells, most_numbered_cells + 2}) {
         TestPart part;
         part.layers = 1;
         part.depth = ElementFormat::u8;
@@ -162,7 +162,7 @@ TEST(FoldIssues, MapsHaveNoMoreCellsThanEdgesHaveNumbers) {
             }
         });
         const Status status = check(file, no_limits, CheckDepth::structure);
-        EXPECT_EQ(status.issue, cells > most_fold_cells ? Issue::fold_part_not_valid : Issue::none)
+        EXPECT_EQ(status.issue, cells > most_numbered_cells ? Issue::fold_part_not_valid : Issue::none)
             << describe(status, "file");
     }
 }

@@ -89,8 +89,9 @@ TEST(Folds, EdgesHaveTheNumbersOfTheSpecification) {
     for (std::uint32_t beyond = 75; beyond < 100; ++beyond) EXPECT_FALSE(is_edge(cells, beyond));
     EXPECT_FALSE(is_edge(cells, 0xFFFFFFFF));
     // The last edge of the largest map.
-    const std::uint32_t last = edge_number(most_fold_cells, {most_fold_cells - 1, most_fold_cells}, 0);
-    EXPECT_TRUE(is_edge(most_fold_cells, last));
+    const std::uint32_t last =
+        edge_number(most_numbered_cells, {most_numbered_cells - 1, most_numbered_cells}, 0);
+    EXPECT_TRUE(is_edge(most_numbered_cells, last));
     EXPECT_EQ(last, 805404669U);
     EXPECT_EQ(most_fold_bytes(4), 75U * 640);
 }
