@@ -63,7 +63,7 @@ CoarsePart coarse_part(const Part& part, std::uint32_t cells) {
         for (Surface* surface : {&layer.outer, &layer.inner}) {
             coarsener.coarsen(surface->color, coarse.pixels);
             coarsener.coarsen(surface->normal, coarse.pixels);
-            if (coarsener.coarsen(surface->depth, coarse.pixels)) coarse.part.mixed = {};
+            if (coarsener.coarsen(surface->depth, coarse.pixels)) coarse.part.mixed = coarse.part.folds = {};
         }
     coarse.part.mapping = Mapping::octahedral;
     return coarse;

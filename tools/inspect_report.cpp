@@ -6,6 +6,7 @@
 #include "text.h"
 
 #include "../libspa/core/cell_triangles.h"
+#include "../libspa/core/folds.h"
 
 #include <nlohmann/json.hpp>
 
@@ -32,7 +33,8 @@ std::uint64_t raw_bytes(Sections sections) {
 
 // Of other sections part has no meaning, or none that is known in the file's version.
 bool has_part(const SectionEntry& section) {
-    return container::is_image(section.type) || section.type == container::type_mixed;
+    return container::is_image(section.type) || section.type == container::type_mixed ||
+           section.type == container::type_fold;
 }
 
 const char* side_name(const SectionEntry& section) {
@@ -79,6 +81,8 @@ Json surface_json(const Surface& surface, Mapping mapping) {
 
 Json vector_json(Vec3d v) { return Json::array({v.x, v.y, v.z}); }
 
+std::size_t fold_count(const Part& part) { return part.folds.size() / fold_record_bytes; }
+
 Json part_json(const Part& part) {
     Json errors = Json::object();
     for (const ErrorFigureField& figure : error_figure_fields)
@@ -99,6 +103,7 @@ Json part_json(const Part& part) {
         {"joint", part.joint},
         {"center_inside", part.center_inside},
         {"mixed_triangles", part.mixed.empty() ? Json(nullptr) : Json(mixed_share(part.mixed))},
+        {"fold_records", part.folds.empty() ? Json(nullptr) : Json(fold_count(part))},
         {"errors", errors},
         {"layers", layers},
     };
@@ -165,6 +170,9 @@ std::string part_text(const Part& part, std::size_t index) {
     if (part.joint >= 0) text += line("  joint", std::to_string(part.joint));
     if (!part.mixed.empty())
         text += line("  mixed", percent(mixed_share(part.mixed)) + " of the triangles between samples");
+    if (!part.folds.empty())
+        text += line("  folds",
+                     std::to_string(fold_count(part)) + " records of surfaces that end between samples");
     text += line("  errors", errors_text(part.errors));
     for (std::size_t i = 0; i < part.layers.size(); ++i) {
         const Layer& layer = part.layers[i];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "content.h"
 
+#include "content_folds.h"
 #include "little_endian.h"
 #include "text.h"
 
@@ -135,7 +136,8 @@ Status check_part_depths(const Surroundings& where, const Part& part) {
             if (!status.ok()) return status;
         }
     }
-    return part.mixed.empty() ? Status{} : check_mixed<Code>(where, part);
+    if (!part.mixed.empty()) status = check_mixed<Code>(where, part);
+    return status.ok() && !part.folds.empty() ? check_folds(where.structure, where.part, part) : status;
 }
 
 // The most negative code has no positive counterpart and is not in [-1,1].

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules about pixels: which codes images may hold, and how those of a part's layers relate.
+// The rules about pixels: which codes images may hold, how those of a part's layers relate, and what is said
+// about the triangles between them.
 #pragma once
 
 #include "structure.h"

@@ -17,7 +17,7 @@ namespace spa::container {
 constexpr std::array<std::uint8_t, 12> identifier{0xAB, 0x53, 0x50, 0x41, 0x20, 0x4D,
                                                   0x61, 0x70, 0x0D, 0x0A, 0x1A, 0x0A};
 constexpr std::uint16_t version_major = 1;
-constexpr std::uint16_t version_minor = 1;
+constexpr std::uint16_t version_minor = 2;
 
 constexpr std::size_t header_size = 64;
 constexpr std::size_t section_entry_size = 64;
@@ -36,15 +36,19 @@ constexpr std::uint32_t type_normal = section_type("NRML");
 constexpr std::uint32_t type_color = section_type("COLR");
 constexpr std::uint32_t type_metadata = section_type("META");
 constexpr std::uint32_t type_mixed = section_type("MIXD"); // since minor version 1
+constexpr std::uint32_t type_fold = section_type("FOLD");  // since minor version 2
 constexpr bool is_image(std::uint32_t type) {
     return type == type_depth || type == type_normal || type == type_color;
 }
 // A reader may skip it: its required flag is clear.
-constexpr bool is_optional(std::uint32_t type) { return type == type_metadata || type == type_mixed; }
+constexpr bool is_optional(std::uint32_t type) {
+    return type == type_metadata || type == type_mixed || type == type_fold;
+}
 // Whether the type has a meaning in a file of this minor version. In an older file than its own it is any
 // other unknown type, about whose content nothing was promised.
 constexpr bool is_known(std::uint32_t type, std::uint16_t minor) {
-    return is_image(type) || type == type_part || type == type_metadata || (type == type_mixed && minor >= 1);
+    return is_image(type) || type == type_part || type == type_metadata ||
+           (type == type_mixed && minor >= 1) || (type == type_fold && minor >= 2);
 }
 // "PART", ...; bytes that are not printable ASCII come out as '?'.
 std::string type_name(std::uint32_t type);

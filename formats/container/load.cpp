@@ -96,6 +96,8 @@ public:
         }
         if (entry.type == type_mixed)
             loaded_.map.parts[entry.part].mixed = bytes.view;
+        else if (entry.type == type_fold)
+            loaded_.map.parts[entry.part].folds = bytes.view;
         else
             *find_view(loaded_.map, entry) = {bytes.view, entry.width, entry.height, entry.format};
         if (!bytes.held.empty()) loaded_.buffers.push_back(std::move(bytes.held));

@@ -17,7 +17,8 @@ constexpr std::string_view raise = "If you trust the file, raise the limit.";
 // "DPTH of part 0, layer 1, inner"; other sections by type alone.
 std::string section_name(const Status& status) {
     std::string text = type_name(status.type);
-    if (status.type == type_mixed) return text + " of part " + std::to_string(status.part);
+    if (status.type == type_mixed || status.type == type_fold)
+        return text + " of part " + std::to_string(status.part);
     if (!is_image(status.type)) return text;
     text += " of part " + std::to_string(status.part) + ", layer " + std::to_string(status.layer);
     if (status.side <= std::uint16_t(Side::inner))
@@ -28,7 +29,7 @@ std::string section_name(const Status& status) {
 } // namespace
 
 // Ascending. Names and texts are those of SPA.md, letter for letter: a test compares.
-const std::array<IssueEntry, 66> issue_table{{
+const std::array<IssueEntry, 73> issue_table{{
     {Issue::file_too_short, "file_too_short", "the file is shorter than a header", again},
     {Issue::not_a_spa_file, "not_a_spa_file", "the file does not begin with the identifier",
      "This is another kind of file."},
@@ -87,6 +88,15 @@ const std::array<IssueEntry, 66> issue_table{{
      "a MIXD section names a part that does not exist or is not octahedral", writer},
     {Issue::wrong_mixed_length, "wrong_mixed_length",
      "the raw length of a MIXD section is not that of its part's map", writer},
+    {Issue::fold_fields_not_zero, "fold_fields_not_zero",
+     "a FOLD section has layer, side, element format, width or height", writer},
+    {Issue::fold_part_not_valid, "fold_part_not_valid",
+     "a FOLD section names a part that does not exist, is not octahedral, has no MIXD or more than 16384 "
+     "cells a side",
+     writer},
+    {Issue::wrong_fold_length, "wrong_fold_length",
+     "the raw length of a FOLD section is zero, not a multiple of 10 or too large for its part's map",
+     writer},
 
     {Issue::wrong_parts_length, "wrong_parts_length", "the length of PART is zero or not a multiple of 192",
      writer},
@@ -120,6 +130,15 @@ const std::array<IssueEntry, 66> issue_table{{
      "two depths of an octahedral border that are the same point differ", writer},
     {Issue::corners_differ, "corners_differ",
      "a triangle that is not mixed has corners with different numbers of surfaces", writer},
+    {Issue::fold_edge_not_valid, "fold_edge_not_valid",
+     "a fold record names an edge that does not exist, or one before that of the record before it", writer},
+    {Issue::fold_index_not_valid, "fold_index_not_valid",
+     "a fold record names a crossing that is not there at its end of the edge", writer},
+    {Issue::fold_cut_not_valid, "fold_cut_not_valid",
+     "a fold record has a depth of 0 at its cut, or one that is not 0 for a crossing that it does not have",
+     writer},
+    {Issue::fold_on_pure_triangle, "fold_on_pure_triangle",
+     "a fold record names an edge of a triangle that is not mixed", writer},
 
     {Issue::metadata_not_utf8, "metadata_not_utf8", "the metadata is not valid UTF-8", writer},
     {Issue::metadata_not_json, "metadata_not_json",

@@ -50,6 +50,9 @@ enum class Issue : std::uint16_t {
     mixed_fields_not_zero = 222,
     mixed_part_not_valid = 223,
     wrong_mixed_length = 224,
+    fold_fields_not_zero = 225,
+    fold_part_not_valid = 226,
+    wrong_fold_length = 227,
 
     wrong_parts_length = 301,
     part_number_not_valid = 302,
@@ -72,6 +75,10 @@ enum class Issue : std::uint16_t {
     normal_not_valid = 504,
     border_differs = 505,
     corners_differ = 506,
+    fold_edge_not_valid = 507,
+    fold_index_not_valid = 508,
+    fold_cut_not_valid = 509,
+    fold_on_pure_triangle = 510,
 
     metadata_not_utf8 = 601,
     metadata_not_json = 602,
@@ -98,7 +105,7 @@ struct IssueEntry {
     std::string_view advice; // what to do
 };
 
-extern const std::array<IssueEntry, 66> issue_table;
+extern const std::array<IssueEntry, 73> issue_table;
 
 constexpr std::uint32_t no_section = 0xFFFFFFFF;
 

@@ -46,11 +46,12 @@ Status check_entries(const Structure& structure, const Limits& limits);
 Status check_parts(std::span<const std::byte> bytes, const Limits& limits, Structure& structure);
 
 // Every image belongs to a part, has a possible size, is there once; none is missing. The bits of mixed
-// triangles belong to an octahedral part and are as many as it has. O(sections log sections).
+// triangles belong to an octahedral part and are as many as it has, folds to one with such bits, and are no
+// more than there can be. O(sections log sections).
 Status check_images(const Structure& structure);
 
-// The section of an image, or of a part's mixed triangles (layer 0, outer); structure.sections.size() if
-// there is none. O(sections).
+// The section of an image, or of a part's mixed triangles or folds (layer 0, outer);
+// structure.sections.size() if there is none. O(sections).
 std::size_t find_image(const Structure& structure, std::uint32_t type, std::uint32_t part,
                        std::uint32_t layer, Side side);
 

@@ -2,6 +2,7 @@
 #include "structure.h"
 
 #include "../../libspa/core/cell_triangles.h"
+#include "../../libspa/core/folds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +61,8 @@ std::pair<Issue, std::size_t> check_record(const PartRecord& record, const Limit
     if (!are_error_figures(part.errors)) return {Issue::error_figure_not_valid, 120};
     // The flags came with minor version 1. What a newer version adds to them is ignored.
     if (minor == 0 && record.flags != 0) return {Issue::part_reserved_not_zero, 152};
-    if (minor == 1 && (record.flags & ~part_flag_center_inside) != 0) return {Issue::unknown_part_flags, 152};
+    if (minor <= version_minor && (record.flags & ~part_flag_center_inside) != 0)
+        return {Issue::unknown_part_flags, 152};
     if (minor <= version_minor && !record.reserved_zero) return {Issue::part_reserved_not_zero, 156};
     return {Issue::none, 0};
 }
@@ -93,11 +95,25 @@ Status check_image_place(const Structure& structure, std::size_t i) {
     return {};
 }
 
-Status check_mixed_place(const Structure& structure, std::size_t i) {
+// Of MIXD and FOLD.
+Status check_triangles_place(const Structure& structure, std::size_t i, Issue issue) {
     const std::uint32_t part = structure.sections[i].part;
     const bool octahedral =
         part < structure.parts.size() && structure.parts[part].part.mapping == Mapping::octahedral;
-    return octahedral ? Status{} : at_section(Issue::mixed_part_not_valid, structure, i);
+    return octahedral ? Status{} : at_section(issue, structure, i);
+}
+
+// cells: of the map. fold: may be nullptr.
+Status check_fold_length(const Structure& structure, const SectionEntry* fold, bool has_mixed,
+                         std::uint32_t cells) {
+    if (fold == nullptr) return {};
+    const auto section = std::size_t(fold - structure.sections.data());
+    if (!has_mixed || cells > most_numbered_cells)
+        return at_section(Issue::fold_part_not_valid, structure, section);
+    if (fold->raw_length == 0 || fold->raw_length % fold_record_bytes != 0 ||
+        fold->raw_length > most_fold_bytes(cells))
+        return at_section(Issue::wrong_fold_length, structure, section);
+    return {};
 }
 
 Status missing(std::uint32_t type, std::uint32_t part, std::uint32_t layer, Side side) {
@@ -132,7 +148,7 @@ Status check_part_images(const Structure& structure, const std::vector<Index>& i
     if (mixed != nullptr && mixed->raw_length != mixed_bytes(first->width - 1))
         return at_section(Issue::wrong_mixed_length, structure,
                           std::size_t(mixed - structure.sections.data()));
-    return {};
+    return check_fold_length(structure, find(type_fold, 0, Side::outer), mixed != nullptr, first->width - 1);
 }
 
 } // namespace
@@ -171,7 +187,10 @@ Status check_images(const Structure& structure) {
         const std::uint32_t type = structure.sections[i].type;
         Status status;
         if (is_image(type)) status = check_image_place(structure, i);
-        if (type == type_mixed && structure.knows(type)) status = check_mixed_place(structure, i);
+        if (type == type_mixed && structure.knows(type))
+            status = check_triangles_place(structure, i, Issue::mixed_part_not_valid);
+        if (type == type_fold && structure.knows(type))
+            status = check_triangles_place(structure, i, Issue::fold_part_not_valid);
         if (!status.ok()) return status;
     }
     // A missing image ends the search, so that the work is bounded by the sections and not by the layer

@@ -79,9 +79,12 @@ Status check_known_entry(const Structure& structure, std::size_t i, const Limits
     if (!is_image(entry.type)) {
         const bool only_part = entry.layer == 0 && entry.side == 0 && std::uint32_t(entry.format) == 0 &&
                                entry.width == 0 && entry.height == 0;
-        if (entry.type == type_mixed && !only_part)
-            return at_field(Issue::mixed_fields_not_zero, structure, i, Field::layer);
-        if (entry.type != type_mixed && (!only_part || entry.part != 0))
+        const bool of_part = entry.type == type_mixed || entry.type == type_fold;
+        if (of_part && !only_part)
+            return at_field(entry.type == type_mixed ? Issue::mixed_fields_not_zero
+                                                     : Issue::fold_fields_not_zero,
+                            structure, i, Field::layer);
+        if (!of_part && (!only_part || entry.part != 0))
             return at_field(Issue::fields_not_zero, structure, i, Field::part);
     }
     if (entry.scheme == Scheme::none && entry.raw_length != entry.stored_length)

@@ -52,8 +52,9 @@ public:
                     if (!status.ok()) return status;
                 }
             }
-            const std::span<const std::byte> mixed = map.parts[i].mixed;
-            if (!mixed.empty()) add({.type = type_mixed, .part = std::uint32_t(i)}, mixed);
+            const Part& part = map.parts[i];
+            if (!part.mixed.empty()) add({.type = type_mixed, .part = std::uint32_t(i)}, part.mixed);
+            if (!part.folds.empty()) add({.type = type_fold, .part = std::uint32_t(i)}, part.folds);
         }
         return {};
     }

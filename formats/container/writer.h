@@ -14,7 +14,7 @@ namespace spa::container {
 enum class Compression : std::uint8_t {
     none, // images can be used where they lie
     zstd, // depths and normals as Scheme::filtered_zstd, colours as that or zstd, whichever is smaller,
-          // metadata and mixed triangles as zstd; what does not shrink stays as it is
+          // metadata, mixed triangles and folds as zstd; what does not shrink stays as it is
 };
 
 struct WriteOptions {

@@ -49,19 +49,23 @@ std::vector<FoldRecord> decode_folds(std::span<const std::byte> bytes) {
     std::vector<FoldRecord> records(count);
     std::uint32_t edge = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const auto plane = [&](std::size_t p) {
-            return std::to_integer<std::uint32_t>(bytes[p * count + i]);
-        };
-        FoldRecord& r = records[i];
-        edge += plane(0) | plane(1) << 8U | plane(2) << 16U | plane(3) << 24U;
-        r.edge = edge;
-        r.index = std::uint8_t(plane(4) & index_bits);
-        r.end = (plane(4) & end_bit) != 0 ? 1 : 0;
-        r.pair = (plane(4) & pair_bit) != 0;
-        r.place = std::uint8_t(plane(5));
-        r.cut = {std::uint16_t(plane(6) | plane(7) << 8U), std::uint16_t(plane(8) | plane(9) << 8U)};
+        records[i] = decode_fold_step(bytes, i);
+        records[i].edge = edge += records[i].edge;
     }
     return records;
+}
+
+FoldRecord decode_fold_step(std::span<const std::byte> bytes, std::size_t i) {
+    const std::size_t count = bytes.size() / fold_record_bytes;
+    const auto plane = [&](std::size_t p) { return std::to_integer<std::uint32_t>(bytes[p * count + i]); };
+    FoldRecord r;
+    r.edge = plane(0) | plane(1) << 8U | plane(2) << 16U | plane(3) << 24U;
+    r.index = std::uint8_t(plane(4) & index_bits);
+    r.end = (plane(4) & end_bit) != 0 ? 1 : 0;
+    r.pair = (plane(4) & pair_bit) != 0;
+    r.place = std::uint8_t(plane(5));
+    r.cut = {std::uint16_t(plane(6) | plane(7) << 8U), std::uint16_t(plane(8) | plane(9) << 8U)};
+    return r;
 }
 
 } // namespace spa

@@ -42,12 +42,18 @@ struct FoldRecord {
 
 constexpr unsigned fold_indices = 64;
 constexpr std::size_t fold_record_bytes = 10;
+// Edges are numbered, and a map may have records, up to so many cells a side: their numbers have 32 bits.
+constexpr std::uint32_t most_numbered_cells = 1U << 14U;
 
 // In (0, 1], straight in the octant's coordinates.
 constexpr double fold_position(std::uint8_t place) { return (place + 1) / 256.0; }
 
-// Numbers of edges are less than this. cells: N <= 2^14.
+// Numbers of edges are less than this. cells: N <= most_numbered_cells.
 constexpr std::uint32_t edge_count(std::uint32_t cells) { return 3 * (cells + 1) * (cells + 1); }
+// A part has no more bytes of records than this, far above what any holds.
+constexpr std::uint64_t most_fold_bytes(std::uint32_t cells) {
+    return std::uint64_t(edge_count(cells)) * fold_indices * fold_record_bytes;
+}
 constexpr std::uint32_t edge_number(std::uint32_t cells, TexelIndex at, unsigned kind) {
     return 3 * (at.y * (cells + 1) + at.x) + kind;
 }
@@ -80,5 +86,7 @@ std::vector<std::byte> encode_folds(std::span<const FoldRecord> records);
 // bytes: a multiple of fold_record_bytes. Of bytes that encode_folds did not make, members may have any value
 // in the range of their fields; edges are cut to 32 bits and may fall. O(bytes).
 std::vector<FoldRecord> decode_folds(std::span<const std::byte> bytes);
+// Record i alone. Its edge is the step from the edge of the record before it, of record 0 the edge itself.
+FoldRecord decode_fold_step(std::span<const std::byte> bytes, std::size_t i);
 
 } // namespace spa

@@ -29,7 +29,7 @@ PackedImages::PackedImages(const SphericalMap& map, const CompileOptions& option
         PackedPart& packed = parts_.emplace_back();
         packed.placement = part;
         packed.placement.layers.clear(); // views that may not outlive this object
-        packed.placement.mixed = {};
+        packed.placement.mixed = packed.placement.folds = {};
         packed.image = image_bytes_;
         packed.words = images_ ? traced.size_with_images(part) : traced.words().size();
         const std::size_t end = image_bytes_ + packed.words * sizeof(std::uint32_t);

@@ -2,6 +2,10 @@
 #include "process.h"
 #include "schema.h"
 
+#include "../../formats/container/reader.h"
+#include "../../formats/container/writer.h"
+#include "../../libspa/core/folds.h"
+
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
@@ -40,12 +44,53 @@ TEST_F(InspectVerb, JsonFollowsItsSchemaAndAddsUp) {
     EXPECT_EQ(report["parts"][0]["size"], "64");
     EXPECT_EQ(report["parts"][0]["center_inside"], false);
     EXPECT_EQ(report["parts"][0]["mixed_triangles"], report["metadata"]["report"]["mixed_triangles"]);
-    EXPECT_EQ(report["sections"].back()["type"], "MIXD");
-    EXPECT_EQ(report["sections"].back()["part"], 0);
+    const json& sections = report["sections"];
+    EXPECT_EQ(sections[sections.size() - 2]["type"], "MIXD");
+    EXPECT_EQ(sections[sections.size() - 2]["part"], 0);
+    EXPECT_EQ(sections.back()["type"], "FOLD");
+    EXPECT_EQ(report["parts"][0]["fold_records"].get<std::uint64_t>() * 10, sections.back()["raw_bytes"]);
     std::uint64_t raw = 0;
-    for (const json& section : report["sections"]) raw += section["raw_bytes"].get<std::uint64_t>();
+    for (const json& section : sections) raw += section["raw_bytes"].get<std::uint64_t>();
     EXPECT_EQ(report["raw_bytes"], raw);
     EXPECT_EQ(report["metadata"]["options"]["size"], "64");
+}
+
+TEST_F(InspectVerb, FoldRecordsAreCounted) {
+    const std::string bytes = file("torus.spa");
+    container::File opened;
+    ASSERT_TRUE(container::open(std::as_bytes(std::span(bytes)), opened).ok());
+    SphericalMap map = opened.map();
+    map.parts[0].folds = {};
+    const auto write = [&](const char* name) {
+        std::vector<std::byte> out;
+        const container::Status status = container::write(map, {}, out);
+        EXPECT_TRUE(status.ok()) << container::describe(status, name);
+        write_file(folder_.path() / name, {reinterpret_cast<const char*>(out.data()), out.size()});
+    };
+    write("plain.spa");
+    EXPECT_EQ(json::parse(inspect({"plain.spa", "--format", "json"}).out)["parts"][0]["fold_records"],
+              nullptr);
+    EXPECT_EQ(inspect({"plain.spa"}).out.find("  folds"), std::string::npos);
+
+    // The middle of the map looks at the tube.
+    const std::vector<std::byte> mixed(map.parts[0].mixed.size(), std::byte{0xFF});
+    const std::uint32_t edge = edge_number(64, {32, 32}, 0);
+    const std::vector<std::byte> folds =
+        encode_folds(std::vector<FoldRecord>{{edge, true, 0, 0, 99, {40000, 40000}},
+                                             {edge + 1, false, 0, 1, 3, {40000, 0}},
+                                             {edge + 1, false, 0, 0, 3, {1, 0}}});
+    map.parts[0].mixed = mixed;
+    map.parts[0].folds = folds;
+    write("folds.spa");
+    const json report = json::parse(inspect({"folds.spa", "--format", "json"}).out);
+    EXPECT_EQ(schema_error(load_schema("inspect"), report), "");
+    EXPECT_EQ(report["parts"][0]["fold_records"], 3);
+    EXPECT_EQ(report["sections"].back()["type"], "FOLD");
+    EXPECT_EQ(report["sections"].back()["part"], 0);
+    EXPECT_EQ(report["sections"].back()["raw_bytes"], 30);
+    const std::string text = inspect({"folds.spa"}).out;
+    EXPECT_NE(text.find("\n  folds     3 records"), std::string::npos) << text;
+    EXPECT_NE(text.find("\n  FOLD  part 0  "), std::string::npos) << text;
 }
 
 // Radii 1 and 0.4 about the Y axis: seen from the centre the tube reaches up to asin(0.4) from the equator,
@@ -69,9 +114,10 @@ TEST_F(InspectVerb, CoverageAndDepthAreThoseOfATorus) {
 TEST_F(InspectVerb, TextNamesEverySection) {
     const Outcome outcome = inspect({"torus.spa"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_EQ(outcome.out.rfind("torus.spa: spherical map, version 1.1, 1 part, ", 0), 0U) << outcome.out;
-    for (const char* text : {"PART", "META", "DPTH", "NRML", "COLR", "MIXD", "octahedral 64, 65x65 samples",
-                             "not measured", "source.name", "torus.glb", "coverage"})
+    EXPECT_EQ(outcome.out.rfind("torus.spa: spherical map, version 1.2, 1 part, ", 0), 0U) << outcome.out;
+    for (const char* text :
+         {"PART", "META", "DPTH", "NRML", "COLR", "MIXD", "FOLD", "octahedral 64, 65x65 samples",
+          "not measured", "source.name", "torus.glb", "coverage"})
         EXPECT_NE(outcome.out.find(text), std::string::npos) << text;
 }
 

@@ -36,7 +36,7 @@ protected:
         std::vector<std::byte> changed(depth.bytes.begin(), depth.bytes.end());
         for (std::size_t i = 2 * (16 * 33 + 4); i < 2 * (16 * 33 + 8); ++i) changed[i] = std::byte{0};
         depth.bytes = changed;
-        map.parts[0].mixed = {}; // it knows nothing of the hole
+        map.parts[0].mixed = map.parts[0].folds = {}; // they know nothing of the hole
         std::vector<std::byte> out;
         ASSERT_TRUE(container::write(map, {}, out).ok());
         write_file(folder_.path() / name, {reinterpret_cast<const char*>(out.data()), out.size()});

@@ -126,6 +126,21 @@ TEST(Allocation, HugeClaimsOfMixedTriangles) {
     expect_little(put_together(parts), Issue::impossible_ratio, Issue::impossible_ratio, no_limits);
 }
 
+// What a frame of 16 MiB of zeros claims to be. The map has 5 x 5 samples.
+TEST(Allocation, HugeClaimsOfFolds) {
+    FileParts parts = take_apart(write(make_map({TestPart{}}).map));
+    Section& section = parts.find(type_fold);
+    section.stored = compress(FileBytes(std::size_t(16) << 20U), 1);
+    section.entry.scheme = Scheme::zstd;
+    section.entry.raw_length = 16'000'000;
+    expect_little(put_together(parts), Issue::wrong_fold_length, Issue::wrong_fold_length, no_limits);
+    // As many as there may be of this map, but not what the frame says.
+    section.entry.raw_length = 3U * 5 * 5 * 64 * 10;
+    expect_little(put_together(parts), Issue::wrong_frame_size, Issue::wrong_frame_size, no_limits);
+    section.entry.raw_length = huge;
+    expect_little(put_together(parts), Issue::impossible_ratio, Issue::impossible_ratio, no_limits);
+}
+
 TEST(Allocation, ALongUnknownSectionIsNotHeld) {
     const FileBytes good = good_file();
     FileParts parts = take_apart(good);

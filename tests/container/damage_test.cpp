@@ -16,6 +16,7 @@ std::vector<FileBytes> small_files() {
     TestPart part;
     part.width = part.height = part.color_width = part.color_height = 3;
     const TestMap map = make_map({part});
+    EXPECT_FALSE(map.map.parts[0].folds.empty());
     return {write(map.map), write(map.map, Compression::zstd)};
 }
 
@@ -86,7 +87,7 @@ TEST(Damage, EveryTableByteChangedUnderARightChecksum) {
             reseal_table(changed);
             if (!check(changed).ok()) continue;
             const bool is_minor_version = i == 14 || i == 15;
-            // An optional section of unknown type: META or MIXD under another name.
+            // An optional section of unknown type: META or FOLD under another name; MIXD is needed by FOLD.
             const bool is_optional_type = (i >= entry_field(1, 0) && i < entry_field(1, 4)) ||
                                           (i >= entry_field(last, 0) && i < entry_field(last, 4));
             EXPECT_TRUE(is_minor_version || is_optional_type) << "byte " << i << " xor " << value;

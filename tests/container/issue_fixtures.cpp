@@ -21,10 +21,7 @@ FileBytes with_part_value(std::size_t offset, T value) {
 }
 
 FileBytes with_mixed_value(std::size_t field, std::uint32_t value) {
-    const FileParts parts = take_apart(good_file());
-    const auto at = std::find_if(parts.sections.begin(), parts.sections.end(),
-                                 [](const Section& s) { return s.entry.type == type_mixed; });
-    return with_value(good_file(), entry_field(std::size_t(at - parts.sections.begin()), field), value);
+    return with_entry_value(type_mixed, field, value);
 }
 
 FileBytes bytes_of(std::string_view text) {
@@ -51,6 +48,13 @@ TestPart f32_part() {
 
 FileBytes good_file() { return write(make_map({TestPart{}}).map); }
 
+FileBytes with_entry_value(std::uint32_t type, std::size_t field, std::uint32_t value) {
+    const FileParts parts = take_apart(good_file());
+    const auto at = std::find_if(parts.sections.begin(), parts.sections.end(),
+                                 [type](const Section& s) { return s.entry.type == type; });
+    return with_value(good_file(), entry_field(std::size_t(at - parts.sections.begin()), field), value);
+}
+
 FileBytes compressed_file(Scheme scheme) {
     return edited(good_file(), [&](FileParts& f) {
         Section& section = f.find(type_depth);
@@ -62,7 +66,7 @@ FileBytes compressed_file(Scheme scheme) {
 FileBytes with_unknown_section(std::uint32_t flags, std::uint16_t minor) {
     return edited(good_file(), [&](FileParts& f) {
         Section section;
-        section.entry.type = section_type("FOLD");
+        section.entry.type = section_type("XTRA");
         section.entry.flags = flags;
         section.entry.scheme = Scheme(77);
         section.entry.raw_length = UINT64_MAX;
@@ -77,8 +81,8 @@ FileBytes with_f32_depth(float value) {
                   [&](FileParts& f) { store(f.find(type_depth).stored.data() + 4 * 12, value); });
 }
 
-std::multimap<Issue, std::function<FileBytes()>> file_fixtures() {
-    return {
+Fixtures file_fixtures() {
+    Fixtures fixtures{
         {Issue::file_too_short, [] { return FileBytes{}; }},
         {Issue::file_too_short,
          [] {
@@ -361,6 +365,8 @@ std::multimap<Issue, std::function<FileBytes()>> file_fixtures() {
         {Issue::metadata_not_utf8, [] { return with_metadata("{\"a\":\"\xC0\xAF\"}"); }},
         {Issue::metadata_not_json, [] { return with_metadata("[]"); }},
     };
+    fixtures.merge(fold_fixtures());
+    return fixtures;
 }
 
 std::map<Issue, Limits> limit_fixtures() {

@@ -103,7 +103,7 @@ TEST(Reader, SectionsAreListed) {
     const FileBytes bytes = write(make_map({TestPart{}}).map, Compression::zstd);
     File file;
     ASSERT_TRUE(open(std::span<const std::byte>(bytes), file).ok());
-    ASSERT_EQ(file.sections().size(), 12U);
+    ASSERT_EQ(file.sections().size(), 13U);
     EXPECT_EQ(type_name(file.sections()[0].type), "PART");
     EXPECT_EQ(type_name(file.sections()[1].type), "META");
     const SectionEntry& color = file.sections()[10];
@@ -113,7 +113,10 @@ TEST(Reader, SectionsAreListed) {
     const SectionEntry& mixed = file.sections()[11];
     EXPECT_EQ(type_name(mixed.type), "MIXD");
     EXPECT_EQ(mixed.raw_length, 4U * 4U / 4U);
-    EXPECT_EQ(mixed.offset + mixed.stored_length, bytes.size());
+    const SectionEntry& fold = file.sections()[12];
+    EXPECT_EQ(type_name(fold.type), "FOLD");
+    EXPECT_EQ(fold.raw_length, 12U * 10U);
+    EXPECT_EQ(fold.offset + fold.stored_length, bytes.size());
 }
 
 TEST(Reader, MessagesSayWhere) {

@@ -77,7 +77,9 @@ TEST(RoundTrip, PartsAndLayers) {
     latlong.mapping = Mapping::latlong;
     TestPart unmarked;
     unmarked.mixed = unmarked.center_inside = false;
-    expect_round_trip(make_map({one, deep, bare, latlong, unmarked}, ""));
+    TestPart unfolded;
+    unfolded.folds = false;
+    expect_round_trip(make_map({one, deep, bare, latlong, unmarked, unfolded}, ""));
     expect_round_trip(make_example());
 }
 
@@ -102,6 +104,7 @@ TEST(RoundTrip, CompressionPays) {
     for (const Section& section : take_apart(packed).sections)
         filtered = filtered || section.entry.scheme == Scheme::filtered_zstd;
     EXPECT_TRUE(filtered);
+    EXPECT_EQ(take_apart(packed).find(type_fold).entry.scheme, Scheme::zstd);
 }
 
 TEST(RoundTrip, SameMapSameBytes) {

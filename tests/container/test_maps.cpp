@@ -2,6 +2,7 @@
 #include "test_maps.h"
 
 #include "../../libspa/core/cell_triangles.h"
+#include "../../libspa/core/folds.h"
 
 #include <algorithm>
 #include <array>
@@ -84,6 +85,53 @@ std::span<const std::byte> add_mixed(TestMap& out, const TestPart& spec) {
     return bytes;
 }
 
+// By edges, whether all of their triangles are mixed.
+std::vector<bool> edges_between_mixed(std::span<const std::byte> mixed, std::uint32_t cells) {
+    std::vector<bool> any(edge_count(cells)), pure(edge_count(cells));
+    for (std::uint32_t y = 0; y < cells; ++y)
+        for (std::uint32_t x = 0; x < cells; ++x)
+            for (const unsigned triangle : {0U, 1U})
+                for (const TriangleEdge& e : triangle_edges(cells, x, y, triangle))
+                    (is_mixed(mixed, triangle_bit(cells, x, y, triangle)) ? any : pure)[e.edge] = true;
+    for (std::size_t i = 0; i < any.size(); ++i) any[i] = any[i] && !pure[i];
+    return any;
+}
+
+// Of end 0 a pair and the innermost that is left, of end 1 the innermost.
+std::span<const std::byte> add_folds(TestMap& out, const TestPart& spec, std::span<const std::byte> mixed) {
+    const Grid grid{spec.mapping, spec.width, spec.height};
+    const std::uint32_t cells = spec.width - 1;
+    const auto crossings = [&](TexelIndex t) {
+        const bool is_hole = shell_depth(normalize(sample_direction(grid, t)), 0, 1) == 0;
+        return is_hole ? 0 : 2 * spec.layers - (spec.solid_core ? 1 : 0);
+    };
+    std::vector<FoldRecord> records;
+    const auto add = [&](std::uint32_t edge, unsigned end, bool pair, unsigned index) {
+        const auto place = std::uint8_t(37 * records.size() % 256);
+        const auto code = std::uint16_t(1 + 9779 * records.size() % 65535);
+        records.push_back({edge,
+                           pair,
+                           std::uint8_t(end),
+                           std::uint8_t(index),
+                           place,
+                           {code, pair ? std::uint16_t(65536 - code) : std::uint16_t(0)}});
+    };
+    const std::vector<bool> allowed = edges_between_mixed(mixed, cells);
+    for (std::uint32_t edge = 0; edge < edge_count(cells); ++edge) {
+        if (!allowed[edge]) continue;
+        unsigned first = crossings(edge_ends(cells, edge)[0]);
+        const unsigned second = crossings(edge_ends(cells, edge)[1]);
+        if (first >= 2) {
+            add(edge, 0, true, edge % (first - 1));
+            first -= 2;
+        }
+        if (first >= 1) add(edge, 0, false, first - 1);
+        if (second >= 1) add(edge, 1, false, second - 1);
+    }
+    out.pixels.push_back(std::make_unique<std::vector<std::byte>>(encode_folds(records)));
+    return *out.pixels.back();
+}
+
 bool same(const ImageView& a, const ImageView& b) {
     if (a.empty() && b.empty()) return true;
     return a.width == b.width && a.height == b.height && a.format == b.format &&
@@ -99,6 +147,7 @@ bool same(const Part& a, const Part& b) {
     return a.center == b.center && a.radius == b.radius && a.frame == b.frame && a.mapping == b.mapping &&
            a.node == b.node && a.joint == b.joint && a.center_inside == b.center_inside &&
            std::equal(a.mixed.begin(), a.mixed.end(), b.mixed.begin(), b.mixed.end()) &&
+           std::equal(a.folds.begin(), a.folds.end(), b.folds.begin(), b.folds.end()) &&
            std::bit_cast<Bits>(a.errors) == std::bit_cast<Bits>(b.errors) &&
            std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
                       [](const Layer& x, const Layer& y) { return same(x, y); });
@@ -130,6 +179,7 @@ TestMap make_map(const std::vector<TestPart>& parts, const std::string& metadata
             part.layers.push_back(layer);
         }
         if (spec.mixed && spec.mapping == Mapping::octahedral) part.mixed = add_mixed(out, spec);
+        if (spec.folds && !part.mixed.empty()) part.folds = add_folds(out, spec, part.mixed);
         out.map.parts.push_back(part);
     }
     return out;

@@ -27,13 +27,14 @@ struct TestPart {
     bool inner_colors = true;
     bool center_inside = true;
     bool mixed = true; // octahedral: which triangles are mixed is stored
+    bool folds = true; // with `mixed`: there are fold records, each valid; together they mean nothing
 };
 
 // Concentric bumpy shells with holes, so that all depths differ, obey the rules of layers, and some are 0.
 TestMap make_map(const std::vector<TestPart>& parts,
                  const std::string& metadata = "{\"generator\":\"test\"}");
 
-// The example of formats/SPA.md, section 14.
+// The example of formats/SPA.md, section 15.
 TestMap make_example();
 
 // Whether two maps are the same: every field and every byte of every image (NaN equals NaN).

@@ -72,8 +72,15 @@ TEST(Writer, RefusesMapsThatBreakTheRules) {
     EXPECT_EQ(
         status_of([](SphericalMap& m, TestMap&) { m.parts[0].mixed = m.parts[0].mixed.first(3); }).issue,
         Issue::wrong_mixed_length);
+    EXPECT_EQ(
+        status_of([](SphericalMap& m, TestMap&) { m.parts[0].folds = m.parts[0].folds.first(9); }).issue,
+        Issue::wrong_fold_length);
+    EXPECT_EQ(status_of([](SphericalMap& m, TestMap&) { m.parts[0].mixed = {}; }).issue,
+              Issue::fold_part_not_valid);
+    EXPECT_EQ(status_of([](SphericalMap&, TestMap& t) { t.pixels.back()->front() = std::byte{12}; }).issue,
+              Issue::fold_edge_not_valid);
     EXPECT_EQ(status_of([](SphericalMap& m, TestMap&) { m.metadata = "{"; }).issue, Issue::metadata_not_json);
-    TestMap holes = make_map({TestPart{.width = 17, .height = 17}});
+    TestMap holes = make_map({TestPart{.width = 17, .height = 17, .folds = false}});
     std::fill(holes.pixels.back()->begin(), holes.pixels.back()->end(), std::byte{});
     EXPECT_EQ(write_bytes(holes.map).issue, Issue::corners_differ);
     const Status status = status_of([](SphericalMap&, TestMap& t) {

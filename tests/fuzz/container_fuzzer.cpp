@@ -7,6 +7,7 @@
 #include "../../formats/container/reader.h"
 #include "../../formats/container/writer.h"
 #include "../../libspa/core/cell_triangles.h"
+#include "../../libspa/core/folds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,6 +80,20 @@ double touch(const ImageView& image) {
     return sum;
 }
 
+double touch_folds(const Part& part) {
+    const std::uint32_t cells = part.layers.front().outer.depth.width - 1;
+    require(!part.mixed.empty() && part.folds.size() % fold_record_bytes == 0,
+            "folds without what they need");
+    double sum = 0;
+    for (const FoldRecord& record : decode_folds(part.folds)) {
+        sum += record.index + record.place + record.cut[0] + record.cut[1];
+        require(is_edge(cells, record.edge) && record.cut[0] != 0, "fold record not valid");
+        for (const TexelIndex end : edge_ends(cells, record.edge))
+            sum += std::to_integer<int>(*part.layers.front().outer.depth.at(end.x, end.y));
+    }
+    return sum;
+}
+
 double touch(const SphericalMap& map) {
     double sum = 0;
     for (const Part& part : map.parts) {
@@ -95,6 +110,7 @@ double touch(const SphericalMap& map) {
                     (part.mapping == Mapping::octahedral && part.mixed.size() == mixed_bytes(cells)),
                 "wrong number of mixed triangles");
         sum += mixed_share(part.mixed);
+        if (!part.folds.empty()) sum += touch_folds(part);
     }
     return sum;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // container_seeds FOLDER: writes the seed corpus, one small valid file of each kind.
 #include "../container/file_parts.h"
+#include "../container/old_versions.h"
 #include "../container/test_maps.h"
-#include "../container/version_1_0.h"
 
 #include <fstream>
 
@@ -20,7 +20,7 @@ bool save(const std::string& path, const FileBytes& bytes) {
 FileBytes with_unknown_section(const FileBytes& file) {
     FileParts parts = take_apart(file);
     Section section;
-    section.entry.type = container::section_type("FOLD");
+    section.entry.type = container::section_type("XTRA");
     section.stored.resize(5);
     parts.sections.push_back(section);
     parts.minor = container::version_minor + 1;
@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
     const bool done = save(folder + "example.spa", write(make_example().map)) &&
                       save(folder + "plain.spa", plain) &&
                       save(folder + "version_1_0.spa", version_1_0_file()) &&
+                      save(folder + "version_1_1.spa", version_1_1_file()) &&
                       save(folder + "unknown.spa", with_unknown_section(plain)) &&
                       save(folder + "zstd.spa", write(large.map, container::Compression::zstd));
     return done ? 0 : 2;

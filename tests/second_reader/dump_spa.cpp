@@ -5,7 +5,7 @@
 
 #include "../../formats/container/reader.h"
 #include "../../formats/container/writer.h"
-#include "../../libspa/core/cell_triangles.h"
+#include "../../libspa/core/folds.h"
 
 #include <cmath>
 #include <cstdio>
@@ -68,6 +68,28 @@ void print_mixed(const Part& part, std::size_t index) {
     }
 }
 
+// One line a record, with the samples at its ends and the points of its cut.
+void print_folds(const Part& part, std::size_t index) {
+    const ImageView& depth = part.layers[0].outer.depth;
+    const std::vector<FoldRecord> records = decode_folds(part.folds);
+    std::printf("folds %zu %zu\n", index, records.size());
+    for (const FoldRecord& r : records) {
+        const std::array<TexelIndex, 2> ends = edge_ends(depth.width - 1, r.edge);
+        std::printf("%u %u %d %u %u %u %u %u %u", r.edge, unsigned(r.end), int(r.pair), unsigned(r.index),
+                    unsigned(r.place), ends[0].x, ends[0].y, ends[1].x, ends[1].y);
+        const Grid grid{part.mapping, depth.width, depth.height};
+        const Vec3d from = sample_direction(grid, ends[r.end]), to = sample_direction(grid, ends[1U - r.end]);
+        const Vec3d u = normalize(from + (to - from) * fold_position(r.place));
+        for (const std::uint16_t code : r.cut) {
+            if (code == 0) continue;
+            const double d = code / 65535.0;
+            print(d);
+            print(part.center + part.frame * (u * (d * part.radius)));
+        }
+        std::printf("\n");
+    }
+}
+
 void print_map(const SphericalMap& map) {
     std::printf("metadata ");
     for (const char c : map.metadata) std::printf("%02x", unsigned(std::uint8_t(c)));
@@ -96,6 +118,7 @@ void print_map(const SphericalMap& map) {
             }
         }
         if (!part.mixed.empty()) print_mixed(part, i);
+        if (!part.folds.empty()) print_folds(part, i);
     }
 }
 

@@ -15,6 +15,7 @@ import subprocess
 import sys
 
 IDENTIFIER = bytes.fromhex("AB535041204D61700D0A1A0A")
+MINOR = 2  # the version of the specification
 MASK = (1 << 64) - 1
 
 
@@ -210,7 +211,10 @@ def decompress(data):
     return done.stdout
 
 
-# The file (sections 1 to 5), read as section 11 says.
+# The file (sections 1 to 5), read as section 12 says.
+
+
+SINCE = {b"PART": 0, b"META": 0, b"DPTH": 0, b"NRML": 0, b"COLR": 0, b"MIXD": 1, b"FOLD": 2}  # minor versions
 
 
 class Entry:
@@ -233,8 +237,8 @@ class Part:
         require(1 <= self.layers <= 65535, 305)
         flags = u32(data, 152)
         require(minor > 0 or flags == 0, 308)
-        require(minor > 1 or flags & ~1 == 0, 309)
-        require(minor > 1 or not any(data[156:192]), 308)
+        require(minor > MINOR or flags & ~1 == 0, 309)
+        require(minor > MINOR or not any(data[156:192]), 308)
         self.center_inside = flags & 1
 
 
@@ -249,7 +253,7 @@ def read(data):
     end = 64 + 64 * count
     require(end <= length, 107)
     require(xxh3(data[:56] + bytes(8) + data[64:end]) == u64(data, 56), 108)
-    require(minor > 1 or not any(data[28:56]), 109)
+    require(minor > MINOR or not any(data[28:56]), 109)
     entries = [Entry(data[64 + 64 * i : 128 + 64 * i]) for i in range(count)]
     require(count > 0 and entries[0].type == b"PART", 213)
 
@@ -262,7 +266,7 @@ def read(data):
         require(end <= length, 207)
         stored = data[start:end]
         require(xxh3(stored) == entry.checksum, 402)
-        if entry.type not in (b"PART", b"META", b"DPTH", b"NRML", b"COLR") + ((b"MIXD",) if minor > 0 else ()):
+        if minor < SINCE.get(entry.type, minor + 1):
             require(not entry.flags & 1, 201, repr(entry.type))
             continue
         require(entry.scheme in (0, 1, 2), 209)
@@ -273,8 +277,9 @@ def read(data):
             parts = [Part(raw[192 * i : 192 * (i + 1)], minor) for i in range(len(raw) // 192)]
         elif entry.type == b"META":
             metadata = raw
-        elif entry.type == b"MIXD":
-            require(not (entry.layer or entry.side or entry.format or entry.width or entry.height), 222)
+        elif entry.type in (b"MIXD", b"FOLD"):
+            fields = entry.layer or entry.side or entry.format or entry.width or entry.height
+            require(not fields, 222 if entry.type == b"MIXD" else 225)
             images[entry.part, 0, 0, entry.type] = (entry, raw)
         else:
             name, kind, components, size = FORMATS[entry.format]
@@ -285,7 +290,9 @@ def read(data):
             images[entry.part, entry.layer, entry.side, entry.type] = (entry, raw)
     require(end == length, 208)
     for part, _, _, kind in images:
-        require(kind != b"MIXD" or (part < len(parts) and parts[part].mapping == 2), 223)
+        octahedral = part < len(parts) and parts[part].mapping == 2
+        require(kind != b"MIXD" or octahedral, 223)
+        require(kind != b"FOLD" or octahedral and (part, 0, 0, b"MIXD") in images, 226)
     return parts, images, metadata
 
 
@@ -333,6 +340,69 @@ def mixed_triangles(part, images, index):
                 yield f"{mixed} " + " ".join(map(number, u))
 
 
+def depth_images(images, index):
+    """The decoded depths of a part by layer and side (0 outer, 1 inner)."""
+    depths = {}
+    for (owner, layer, side, kind), (entry, codes) in images.items():
+        if owner == index and kind == b"DPTH":
+            name, _, _, size = FORMATS[entry.format]
+            depths[layer, side] = [decode_element(name, codes[i : i + size])[0] for i in range(0, len(codes), size)]
+    return depths
+
+
+def triangles_at(n, ends):
+    """The bits of the triangles that have both samples as corners (section 9)."""
+    for y in range(min(y for _, y in ends) - 1, max(y for _, y in ends) + 1):
+        for x in range(min(x for x, _ in ends) - 1, max(x for x, _ in ends) + 1):
+            if 0 <= x < n and 0 <= y < n:
+                xn, xf = (x + 1, x) if x < n / 2 else (x, x + 1)
+                yn, yf = (y + 1, y) if y < n / 2 else (y, y + 1)
+                for f, corner in enumerate([(xn, yn), (xf, yf)]):
+                    if set(ends) <= {corner, (xn, yf), (xf, yn)}:
+                        yield 2 * (y * n + x) + f
+
+
+def fold_records(part, images, index):
+    """Lines for the fold records of a part, if it has any (section 10)."""
+    if (index, 0, 0, b"FOLD") not in images:
+        return
+    raw, mixed = (images[index, 0, 0, kind][1] for kind in (b"FOLD", b"MIXD"))
+    n = images[index, 0, 0, b"DPTH"][0].width - 1
+    require(n <= 16384, 226)
+    count = len(raw) // 10
+    require(raw and len(raw) % 10 == 0 and count <= 64 * 3 * (n + 1) ** 2, 227)
+    depths = depth_images(images, index)
+    yield f"folds {index} {count}"
+    edge, taken_from = 0, None
+    for i in range(count):
+        record = raw[i::count]
+        step, bits, place, *cut = struct.unpack("<IBBHH", record)
+        edge += step
+        kind, x, y = edge % 3, edge // 3 % (n + 1), edge // 3 // (n + 1)
+        require(y <= n and (kind == 1 or x < n) and (kind == 0 or y < n), 507)
+        xn, xf = (x + 1, x) if x < n / 2 else (x, x + 1)
+        yn, yf = (y + 1, y) if y < n / 2 else (y, y + 1)
+        ends = [((x, y), (x + 1, y)), ((x, y), (x, y + 1)), ((xn, yf), (xf, yn))][kind]
+        if taken_from != edge:
+            taken_from = edge
+            triangles = list(triangles_at(n, ends))
+            require(all(mixed[t // 8] >> t % 8 & 1 for t in triangles), 510)
+            border = any(all(sample[axis] == side for sample in ends) for axis in (0, 1) for side in (0, n))
+            assert len(triangles) == (1 if border else 2)
+            left = [sum(1 for depth in depths.values() if depth[sy * (n + 1) + sx] > 0) for sx, sy in ends]
+        index_at, end, pair = bits & 63, bits >> 6 & 1, bits >> 7
+        require(index_at + pair < left[end], 508)
+        left[end] -= 1 + pair
+        require(cut[0] != 0 and (cut[1] != 0) == bool(pair), 509)
+        p, q = ends[end], ends[1 - end]
+        u = direction(part.mapping, *(p[k] + (place + 1) / 256 * (q[k] - p[k]) for k in (0, 1)), n + 1, n + 1)
+        values = []
+        for code in cut[: 1 + pair]:
+            values += [code / 65535, *to_object_space(part, tuple(code / 65535 * part.radius * c for c in u))]
+        integers = (edge, end, pair, index_at, place, *ends[0], *ends[1])
+        yield " ".join(map(str, integers)) + " " + " ".join(map(number, values))
+
+
 def number(value):
     return "nan" if value != value else f"{value:.9g}"
 
@@ -361,6 +431,7 @@ def lines(data):
                             values = values + u + to_object_space(part, q)
                         yield " ".join(map(number, values))
         yield from mixed_triangles(part, images, index)
+        yield from fold_records(part, images, index)
 
 
 def equal(a, b):
