@@ -53,6 +53,7 @@ private:
         if (!found->is_array()) wrong_type(*found, property, place);
         if (found->empty() && property.items.fewest > 0 && property.occurs == Occurs::optional) {
             warn(context_, place, "is an empty array");
+            object.erase(found); // so that nobody reads what is not in it
             return;
         }
         if (found->size() < property.items.fewest || found->size() > property.items.most)

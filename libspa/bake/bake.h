@@ -46,10 +46,10 @@ struct Report {
     std::uint64_t turned_triangles = 0;   // wound against their neighbours; taken as if they were not
     std::uint64_t flipped_components = 0; // pieces whose faces point into the solid; taken the other way
                                           // round. Like the next one only counted where there are intervals
-    std::uint64_t solid_components = 0;  // pieces that hold the centre: open sides reach it
-    std::uint64_t edge_on_triangles = 0; // their plane holds the centre: no direction sees them
-    std::uint64_t unseen_components = 0; // pieces of which no sample stores a crossing: needles lost between
-                                         // the samples, or hidden behind the stored layers
+    std::uint64_t solid_components = 0;   // pieces that hold the centre: open sides reach it
+    std::uint64_t edge_on_triangles = 0;  // their plane holds the centre: no direction sees them
+    std::uint64_t unseen_components = 0;  // pieces of which no sample stores a crossing: needles lost between
+                                          // the samples, or hidden behind the stored layers
     std::uint64_t back_facing_samples = 0; // whose outermost crossing is a back face
     std::uint64_t thin_samples = 0;        // with a surface that bounds no solid, stored as a thin shell
     std::uint64_t truncated_samples = 0;   // with more intervals than layers

@@ -107,8 +107,7 @@ TEST(Names, OfFilesThatAreReferredTo) {
     const Outcome outcome = folder.run({"--report", "report.json"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const nlohmann::json report = folder.report();
-    for (const nlohmann::json& asset : report["assets"])
-        EXPECT_TRUE(asset["warnings"].empty()) << asset;
+    for (const nlohmann::json& asset : report["assets"]) EXPECT_TRUE(asset["warnings"].empty()) << asset;
     EXPECT_TRUE(folder.is_complete());
     EXPECT_TRUE(says(folder.run().out, "6 up to date"));
     for (std::size_t i = 0; i < names.size(); ++i)

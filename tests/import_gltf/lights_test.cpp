@@ -2,6 +2,7 @@
 // read_scene: the lights of KHR_lights_punctual.
 #include "scene_builder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -38,6 +39,16 @@ TEST(Lights, Defaults) {
         EXPECT_EQ(light.inner_cone, 0);
         EXPECT_DOUBLE_EQ(light.outer_cone, pi / 4);
     }
+}
+
+// Found by fuzzing: elements of the empty array were read.
+TEST(Lights, AnEmptyColourIsAsGoodAsNone) {
+    const SceneResult result = read_scene_both(lit_triangle({{"type", "point"}, {"color", Json::array()}}));
+    EXPECT_EQ(result.scene.lights.at(0).intensity, (Vec3f{1, 1, 1}));
+    const std::vector<std::string>& warnings = result.report.warnings;
+    EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+        return warning.find("lights[0].color is an empty array") != std::string::npos;
+    }));
 }
 
 TEST(Lights, DirectionsTurnWithTheirNodesAndStayUnit) {
