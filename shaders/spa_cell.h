@@ -87,6 +87,7 @@ struct SpaTriangle {
     uint step_y;
     uint beyond; // 0: the triangle at that corner, 1: the other one
     uint prisms; // SPA_PURE, or how many
+    uint layers; // pure: how many there may be
     uint first;  // where they are
     float low;   // no prism lies outside this range of w
     float high;
@@ -194,8 +195,8 @@ SPA_FUNCTION SpaPrism spa_no_prism() {
 }
 
 // How many prisms to look at.
-SPA_FUNCTION uint spa_prisms(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri) {
-    return tri.prisms == SPA_PURE ? (map.surfaces + 1u) / 2u : tri.prisms;
+SPA_FUNCTION uint spa_prisms(SPA_IN(SpaTriangle) tri) {
+    return tri.prisms == SPA_PURE ? tri.layers : tri.prisms;
 }
 
 // Keeps of `clip` what lies where a function is >= 0 that has the values g0 and g1 at the piece's ends. Never
@@ -369,7 +370,7 @@ SPA_FUNCTION bool spa_silent(SPA_IN(SpaPrism) prism, SPA_IN(SpaEvent) event, uin
 // `event` is to be reported.
 SPA_FUNCTION bool spa_cross(SPA_IN(SpaMap) map, SPA_IN(SpaTriangle) tri, SPA_IN(SpaPiece) piece, uint flags,
                             SPA_INOUT(uint) state, SPA_INOUT(SpaEvent) event) {
-    uint count = spa_prisms(map, tri);
+    uint count = spa_prisms(tri);
     float at = piece.s0;
     if (state == SPA_UNKNOWN) {
         state = SPA_OUTSIDE;

@@ -6,9 +6,9 @@
 //   cores      for each node the W beyond which everything below it is solid; SPA_FAR: there is none
 //   samples    W of every sample and surface: 1/|q|_1 of the stored point q (map space); SPA_FAR = none;
 //              as an inner end: the centre is reached. Plane by plane: outer 0, inner 0, outer 1, ...
-//   cells      one word a cell, in the order of the nodes' last level: 0 = both triangles are pure, else
-//   where its
-//              two lists are
+//   cells      one word a cell, in the order of the nodes' last level: SPA_CELL_PURE, SPA_CELL_LAYERS, or
+//   where
+//              its two lists are
 //   prisms     what stands in mixed triangles, and for each triangle of such a cell its list (SPA_LIST_WORDS)
 //   depths     r/R of the outermost surface, one float a sample: what fan and march read
 //   images     colours and normals of every surface
@@ -37,7 +37,7 @@ SPA_BEGIN
 #define SPA_HEADER_W_CORE 11u // float: rays are not followed beyond this W
 #define SPA_HEADER_NODES 12u
 #define SPA_HEADER_SAMPLES 13u
-#define SPA_HEADER_CELLS 14u // 0: there are no mixed triangles
+#define SPA_HEADER_CELLS 14u // 0: all cells are SPA_CELL_PURE
 #define SPA_HEADER_PRISMS 15u
 #define SPA_HEADER_DEPTHS 16u
 #define SPA_HEADER_IMAGES 17u // SPA_IMAGE_WORDS words a surface
@@ -59,6 +59,10 @@ SPA_BEGIN
 // For each surface: where its colours (rgba8) are, their width and height, and the same of the normals (two
 // snorm16, octahedral). Width 0: there is no such image.
 #define SPA_IMAGE_WORDS 6u
+
+// Words of cells: both triangles are pure, with no interval but that of layer 0; or with more.
+#define SPA_CELL_PURE 0u
+#define SPA_CELL_LAYERS 1u
 
 // In place of a normal: no surface there.
 #define SPA_NO_NORMAL 0x80008000u

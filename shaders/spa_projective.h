@@ -52,12 +52,14 @@ SPA_FUNCTION SpaTriangle spa_triangle(SPA_IN(SpaMap) map, uint x, uint y, uint b
     tri.corner = middle * map.width + middle + (x & low_bits) * tri.step_x + (y & low_bits) * tri.step_y;
     tri.beyond = beyond;
     tri.prisms = SPA_PURE;
+    tri.layers = 1u;
     tri.first = 0u;
     tri.low = 0.0f;
     tri.high = SPA_FAR;
     if (map.cells != 0u) {
         uint lists = spa_load(map.words, map.cells + (y << (map.levels + 1u)) + x);
-        if (lists != 0u) {
+        if (lists != SPA_CELL_PURE) tri.layers = (map.surfaces + 1u) / 2u;
+        if (lists > SPA_CELL_LAYERS) {
             uint list = lists + SPA_LIST_WORDS * beyond;
             tri.first = spa_load(map.words, list);
             tri.prisms = spa_load(map.words, list + 1u);

@@ -178,8 +178,13 @@ private:
         }
         if (!mixed[0] && !mixed[1]) {
             result_.cores[cell] = core;
+            if (has_layers(triangles)) {
+                begin_cells();
+                result_.cells[cell] = SPA_CELL_LAYERS;
+            }
             return;
         }
+        begin_cells();
         if (result_.lists.empty()) begin_lists();
         const std::size_t entry = result_.lists.size();
         result_.cells[cell] = std::uint32_t(entry);
@@ -211,8 +216,18 @@ private:
         return {ranges[0].low * (1 - margin), ranges[ranges.count() - 1].high * (1 + margin)};
     }
 
+    // Whether a pure cell has more than the interval of layer 0.
+    [[nodiscard]] bool has_layers(const std::array<MapTriangle, 2>& triangles) const {
+        if (samples_.layers() < 2) return false;
+        for (const MapTriangle& t : triangles)
+            for (const Corner& corner : corners_of(samples_.grid, t))
+                if (w_of(2, corner.texel) < far_w) return true;
+        return false;
+    }
+
+    void begin_cells() { result_.cells.resize(result_.ranges.size(), SPA_CELL_PURE); }
+
     void begin_lists() {
-        result_.cells.resize(result_.ranges.size());
         for (const auto& region : region_half_planes)
             for (const Plane& plane : region) append(plane);
     }

@@ -32,9 +32,9 @@ struct MapCells {
     std::uint32_t levels = 0;
     std::vector<Ranges> ranges; // of w in each cell
     std::vector<float> cores;   // the w beyond which everything in the cell is solid; SPA_FAR: there is none
-    std::vector<std::uint32_t> lists; // what mixed triangles hold; empty: none is mixed
-    std::vector<std::uint32_t>
-        cells; // place of a cell's two (place, count) in `lists`, 0 = both triangles are pure
+    std::vector<std::uint32_t> lists;  // what mixed triangles hold; empty: none is mixed
+    std::vector<std::uint32_t> cells;  // SPA_CELL_PURE, SPA_CELL_LAYERS, or where a cell's two lists are in
+                                       // `lists`; empty: all are pure
     std::vector<std::uint32_t> places; // which words of `lists` are themselves places in `lists`
     float radius = 0;                  // of the farthest point, in units of R, rounded up
     Vec3f box_low, box_high;           // around all points, rounded outward

@@ -177,10 +177,10 @@ HWY_INLINE EntryLanes no_entry() {
     return {none, hn::Set(df, 2.0F), none, none, hn::Zero(du), {zero, zero, zero}, none, none};
 }
 
-// The rays of `lanes` through the cells: all of them pure.
+// The rays of `lanes` through the cells: all of them pure, with so many layers at most.
 template <bool with_inner>
 HWY_INLINE CrossLanes cross_cells(const shader::SpaMap& map, const StretchLanes& stretch,
-                                  const CellLanes& cell) {
+                                  const CellLanes& cell, std::uint32_t layers) {
     const VF one = hn::Set(df, 1.0F);
     const VF zero = hn::Zero(df);
     const MF flip_x = has_bit(stretch.flip_x, 1);
@@ -221,7 +221,6 @@ HWY_INLINE CrossLanes cross_cells(const shader::SpaMap& map, const StretchLanes&
     EntryLanes in_first = no_entry();
     EntryLanes in_second = no_entry();
     const MF second_beyond = hn::Not(first_beyond);
-    const std::uint32_t layers = (map.surfaces + 1) / 2;
     for (std::uint32_t k = 0; k < layers; ++k) {
         const CornerLanes outer = corners(samples + (with_inner ? 2 * k : k) * count, places);
         if (k > 0 &&

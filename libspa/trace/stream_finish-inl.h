@@ -58,7 +58,7 @@ HWY_INLINE void finish(const shader::SpaMap& map, const StreamBlock& block, cons
     const CellLanes cell{hn::IfThenElseZero(real, hn::LoadU(du, results.x + first)),
                          hn::IfThenElseZero(real, hn::LoadU(du, results.y + first)), load(results.s0),
                          load(results.s1)};
-    const CrossLanes cross = cross_cells<with_inner>(map, stretch, cell);
+    const CrossLanes cross = cross_cells<with_inner>(map, stretch, cell, (map.surfaces + 1) / 2);
     const PieceLanes& piece = cross.piece;
 
     const VF zero = hn::Zero(df);

@@ -67,7 +67,7 @@ private:
 // What all lanes share.
 struct WalkConstants {
     const std::uint32_t* nodes = nullptr;
-    const std::uint32_t* cells = nullptr; // none: no cell is mixed
+    const std::uint32_t* cells = nullptr; // none: all are SPA_CELL_PURE
     const float* cores = nullptr;         // none: in the solid every cell is looked at
     std::uint32_t flags = 0;
     VU levels, start, top;
@@ -276,17 +276,22 @@ inline HWY_NOINLINE ByText cross_by_text(const shader::SpaMap& map, const WalkCo
 template <bool with_inner>
 HWY_INLINE MU cross(const shader::SpaMap& map, const WalkConstants& constants, const StretchBlock& jobs,
                     WalkLanes& lanes, VF s1, ResultBlock& results) {
-    const CrossLanes cells = cross_cells<with_inner>(map, lanes.stretch, {lanes.x, lanes.y, lanes.s, s1});
+    VU word = hn::Zero(du);
+    if (constants.cells != nullptr) {
+        const VU row =
+            hn::Shl(hn::Xor(lanes.y, lanes.stretch.flip_y), hn::Add(constants.levels, hn::Set(du, 1)));
+        word = gather(constants.cells, hn::Add(row, hn::Xor(lanes.x, lanes.stretch.flip_x)));
+    }
+    const bool has_layers =
+        with_inner &&
+        !hn::AllFalse(du, hn::And(lanes.waits, hn::Eq(word, hn::Set(du, std::uint32_t(SPA_CELL_LAYERS)))));
+    const CrossLanes cells = cross_cells<with_inner>(map, lanes.stretch, {lanes.x, lanes.y, lanes.s, s1},
+                                                     has_layers ? (map.surfaces + 1) / 2 : 1);
     // Vectors take rays from outside through pure cells. What begins at an edge of a triangle is looked at
     // twice.
     MU by_text = hn::Or(lanes.inside, hn::And(lanes.unknown, hn::RebindMask(du, cells.starts_inside)));
     by_text = hn::Or(by_text, hn::RebindMask(du, hn::And(cells.any, cells.by_edge)));
-    if (constants.cells != nullptr) {
-        const VU row =
-            hn::Shl(hn::Xor(lanes.y, lanes.stretch.flip_y), hn::Add(constants.levels, hn::Set(du, 1)));
-        const VU place = hn::Add(row, hn::Xor(lanes.x, lanes.stretch.flip_x));
-        by_text = hn::Or(by_text, hn::Ne(gather(constants.cells, place), hn::Zero(du)));
-    }
+    by_text = hn::Or(by_text, hn::Gt(word, hn::Set(du, std::uint32_t(SPA_CELL_LAYERS))));
     if ((constants.flags & SPA_CULL_FRONT) != 0) by_text = lanes.alive;
     by_text = hn::And(by_text, lanes.waits);
     const MU surface = hn::AndNot(by_text, hn::And(lanes.waits, hn::RebindMask(du, cells.any)));

@@ -66,11 +66,11 @@ void add_cells(const Part& part, const MapSamples& samples, std::vector<std::uin
     words[SPA_HEADER_NODES] = append(words, pyramid.nodes);
     if (!pyramid.cores.empty()) words[SPA_HEADER_CORES] = append(words, patterns(pyramid.cores));
     words[SPA_HEADER_SAMPLES] = append(words, patterns(samples.w));
-    if (cells.lists.empty()) return;
+    if (cells.cells.empty()) return;
     const auto lists = std::uint32_t(words.size() + cells.cells.size());
     std::vector<std::uint32_t> places = cells.cells;
     for (std::uint32_t& place : places)
-        if (place != 0) place += lists;
+        if (place > SPA_CELL_LAYERS) place += lists;
     words[SPA_HEADER_CELLS] = append(words, places);
     words[SPA_HEADER_PRISMS] = append(words, cells.lists);
     for (const std::uint32_t place : cells.places) words[lists + place] += lists;

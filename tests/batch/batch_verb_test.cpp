@@ -151,6 +151,15 @@ TEST_F(BatchVerb, DryRunWritesNothingAndSaysWhy) {
     EXPECT_EQ(batch({"--dry-run"}).out, "3 assets: 0 to bake, 3 up to date, 0 failed\n");
 }
 
+// Nothing is baked, so there are no pictures to show.
+TEST_F(BatchVerb, DryRunsHaveReportsToo) {
+    const Outcome outcome = batch({"--dry-run", "--report", "dry.json", "--report", "dry.html"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(json::parse(file("dry.json"))["dry_run"], true);
+    EXPECT_NE(file("dry.html").find("</html>"), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder_.path() / "out"));
+}
+
 TEST_F(BatchVerb, ShardsTogetherAreTheWhole) {
     for (int i = 0; i < 8; ++i) sample("cube", "in/c" + std::to_string(i) + ".glb");
     std::set<std::string> seen;

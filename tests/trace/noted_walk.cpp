@@ -51,7 +51,7 @@ double unturned(const SpaMap& map, uint flip, double turned) {
 // The least W of what stands at a place of a triangle.
 float surface_at(const SpaMap& map, const SpaTriangle& tri, float u, float v) {
     float least = SPA_FAR;
-    for (uint i = 0; i < spa_prisms(map, tri); ++i) {
+    for (uint i = 0; i < spa_prisms(tri); ++i) {
         const SpaPrism prism = spa_prism(map, tri, i);
         bool within = true;
         for (uint n = 0; n < prism.half_planes; ++n)
