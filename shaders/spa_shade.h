@@ -96,10 +96,8 @@ SPA_FUNCTION void spa_add_color(SPA_IN(SpaMap) map, uint index, float weight, SP
     coverage = coverage + share;
 }
 
-// The normal of a texel; zero if it looks away from the surface that was hit, whose neighbour it cannot be.
-SPA_FUNCTION float3 spa_weighted_normal(SPA_IN(SpaMap) map, uint index, float weight, float3 hit_normal) {
-    float3 normal = spa_unit(spa_normal_of(spa_load(map.words, index)));
-    return normal * (dot(normal, hit_normal) > 0.0f ? weight : 0.0f);
+SPA_FUNCTION float3 spa_weighted_normal(SPA_IN(SpaMap) map, uint index, float weight) {
+    return spa_unit(spa_normal_of(spa_load(map.words, index))) * weight;
 }
 
 // hit: what a trace of this map gave; of any other record nothing is read outside the image either.
@@ -135,10 +133,10 @@ SPA_FUNCTION SpaShade spa_shade(SPA_IN(SpaMap) map, SpaHit hit) {
     SpaImage normals = spa_image(map, surface, 3u);
     if (normals.width > 0u && hit.side != SPA_WALL) {
         SpaFour four = spa_four(map.mapping, normals.width, normals.height, hit.map);
-        float3 sum = spa_weighted_normal(map, normals.place + four.index0, four.weight0, hit.normal) +
-                     spa_weighted_normal(map, normals.place + four.index1, four.weight1, hit.normal) +
-                     spa_weighted_normal(map, normals.place + four.index2, four.weight2, hit.normal) +
-                     spa_weighted_normal(map, normals.place + four.index3, four.weight3, hit.normal);
+        float3 sum = spa_weighted_normal(map, normals.place + four.index0, four.weight0) +
+                     spa_weighted_normal(map, normals.place + four.index1, four.weight1) +
+                     spa_weighted_normal(map, normals.place + four.index2, four.weight2) +
+                     spa_weighted_normal(map, normals.place + four.index3, four.weight3);
         // None there, or opposite ones that cancel out: the hit's own.
         if (dot(sum, sum) > 1e-6f) {
             shade.normal = spa_unit(sum);

@@ -47,7 +47,7 @@ TEST(Lights, AnEmptyColourIsAsGoodAsNone) {
     EXPECT_EQ(result.scene.lights.at(0).intensity, (Vec3f{1, 1, 1}));
     const std::vector<std::string>& warnings = result.report.warnings;
     EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
-        return warning.find("lights[0].color is an empty array") != std::string::npos;
+        return warning.find("lights[0].color: is an empty array") != std::string::npos;
     }));
 }
 
