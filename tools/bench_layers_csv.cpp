@@ -12,7 +12,7 @@ using measure::LayerFigures;
 constexpr const char* titles =
     "mesh,closed,reconstruction,layers,cells,false_hits,missed_hits,interior_false,interior_missed,"
     "distance_mean,distance_p95,distance_p99,normal_mean,ns,time_ratio,file_bytes,fold_bytes,fold_share,"
-    "mixed_triangles\n";
+    "mixed_triangles,tangent_triangles\n";
 
 std::string line_of(const std::string& mesh, bool closed, const LayerFigures& row) {
     std::string line;
@@ -29,7 +29,8 @@ std::string line_of(const std::string& mesh, bool closed, const LayerFigures& ro
         append_field(line, *row.time_ratio);
     else
         append_field(line, std::string());
-    for (const double value : {row.file_bytes, row.fold_bytes, row.fold_share, row.mixed_triangles})
+    for (const double value :
+         {row.file_bytes, row.fold_bytes, row.fold_share, row.mixed_triangles, row.tangent_triangles})
         append_field(line, value);
     return line + "\n";
 }

@@ -34,6 +34,7 @@ Json figures_json(const LayerFigures& row) {
     json["fold_bytes"] = row.fold_bytes;
     json["fold_share"] = row.fold_share;
     json["mixed_triangles"] = row.mixed_triangles;
+    json["tangent_triangles"] = row.tangent_triangles;
     return json;
 }
 

@@ -38,9 +38,10 @@ struct Column {
     const char* title;
     std::size_t width;
 };
-constexpr Column columns[] = {{"K", 2},     {"N", 5},     {"false%", 7}, {"miss%", 7}, {"in f%", 8},
-                              {"in m%", 8}, {"mean", 8},  {"p95", 8},    {"p99", 8},   {"normal", 7},
-                              {"ns", 5},    {"x K=1", 6}, {"KiB", 6},    {"folds", 6}, {"mixed%", 7}};
+constexpr Column columns[] = {{"K", 2},     {"N", 5},      {"false%", 7}, {"miss%", 7},
+                              {"in f%", 7}, {"in m%", 7},  {"mean", 8},   {"p95", 8},
+                              {"p99", 8},   {"normal", 7}, {"ns", 5},     {"x K=1", 6},
+                              {"KiB", 5},   {"folds", 6},  {"mixed%", 7}, {"tang%", 6}};
 
 std::string titles(const std::string& first) {
     std::string text = pad_right(first, name_width);
@@ -54,8 +55,8 @@ std::string line_of(const LayerFigures& row) {
         std::to_string(row.cells),
         share_text(row.false_hits),
         share_text(row.missed_hits),
-        share_text(row.interior_false),
-        share_text(row.interior_missed),
+        fixed(100 * row.interior_false, 4),
+        fixed(100 * row.interior_missed, 4),
         distance_text(row.distance_mean),
         distance_text(row.distance_p95),
         distance_text(row.distance_p99),
@@ -64,7 +65,8 @@ std::string line_of(const LayerFigures& row) {
         row.time_ratio ? fixed(*row.time_ratio, 2) : "-",
         kibibytes(row.file_bytes),
         row.reconstruction == Reconstruction::folds ? kibibytes(row.fold_bytes) : "-",
-        share_text(row.mixed_triangles)};
+        share_text(row.mixed_triangles),
+        row.reconstruction == Reconstruction::folds ? share_text(row.tangent_triangles) : "-"};
     std::string text = pad_right(title(row.reconstruction), name_width);
     for (std::size_t i = 0; i < std::size(columns); ++i) text += pad_left(cells[i], columns[i].width);
     return text + "\n";
@@ -130,7 +132,7 @@ constexpr const char* legend =
     "f, in m: those of them that no silhouette passes within two texels of 2/N R. mean, p95, p99: |dt| in R "
     "where both are hit; normal: degrees. ns: a ray of a stream, one thread, median; x K=1: of each run, to "
     "one interval of the same kind, median. KiB: the file; folds: how much larger fold records make it; "
-    "mixed: of the map's triangles.\n\n";
+    "mixed: of the map's triangles; tang: of these, what folds leave to tangent planes.\n\n";
 
 } // namespace
 

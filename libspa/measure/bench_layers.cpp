@@ -96,6 +96,7 @@ private:
         row.cells = size_;
         row.fold_records = part.folds.size() / fold_record_bytes;
         row.mixed_triangles = baked.report.mixed_triangles.value_or(0);
+        row.tangent_triangles = trace::TraceMap(part, {0, false}).tangent_share();
         if (options_.file_bytes) row.file_bytes = options_.file_bytes(baked.map.map);
         subject.method = map_method(Family::projective, part, layers, 0);
         if (!truth_) look_at_model(part, baked.report);

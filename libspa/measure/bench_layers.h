@@ -48,7 +48,9 @@ struct LayerRow {
     std::uint64_t file_bytes = 0;
     std::uint64_t fold_bytes = 0; // by how much fold records make the file larger
     std::uint64_t fold_records = 0;
-    double mixed_triangles = 0; // share of the map's triangles
+    double mixed_triangles = 0;   // share of the map's triangles
+    double tangent_triangles = 0; // share of those that are divided along tangent planes: for want of folds,
+                                  // or because they make no sense, as at cusps
     bake::Report bake;
 };
 

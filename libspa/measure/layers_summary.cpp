@@ -24,6 +24,12 @@ bool is_judged(const LayerFigures& row) {
     return row.reconstruction == Reconstruction::folds && row.layers == judged_layers;
 }
 
+// Of a size for which there are limits.
+bool has_limits(const LayerFigures& row) {
+    return std::any_of(std::begin(size_limits), std::end(size_limits),
+                       [&](const SizeLimit& limit) { return limit.cells == row.cells; });
+}
+
 class Judge {
 public:
     explicit Judge(std::span<const LayersMesh> meshes) : meshes_(meshes), mean_(closed_mean(meshes)) {}
@@ -61,9 +67,12 @@ private:
     }
 
     void at_worst(const char* name, double limit, const char* unit, const Value& value) {
+        const bool any_size = std::none_of(mean_.begin(), mean_.end(), has_limits);
         const LayerFigures* worst = nullptr;
         for (const LayerFigures& row : mean_)
-            if (is_judged(row) && (worst == nullptr || value(row) > value(*worst))) worst = &row;
+            if (is_judged(row) && (any_size || has_limits(row)) &&
+                (worst == nullptr || value(row) > value(*worst)))
+                worst = &row;
         if (worst != nullptr) add(name, true, *worst, limit, unit, value);
     }
 
@@ -119,11 +128,11 @@ private:
 };
 
 constexpr double LayerFigures::*averaged[] = {
-    &LayerFigures::false_hits,      &LayerFigures::missed_hits,   &LayerFigures::interior_false,
-    &LayerFigures::interior_missed, &LayerFigures::distance_mean, &LayerFigures::distance_p95,
-    &LayerFigures::distance_p99,    &LayerFigures::normal_mean,   &LayerFigures::ns,
-    &LayerFigures::file_bytes,      &LayerFigures::fold_bytes,    &LayerFigures::fold_share,
-    &LayerFigures::mixed_triangles};
+    &LayerFigures::false_hits,      &LayerFigures::missed_hits,      &LayerFigures::interior_false,
+    &LayerFigures::interior_missed, &LayerFigures::distance_mean,    &LayerFigures::distance_p95,
+    &LayerFigures::distance_p99,    &LayerFigures::normal_mean,      &LayerFigures::ns,
+    &LayerFigures::file_bytes,      &LayerFigures::fold_bytes,       &LayerFigures::fold_share,
+    &LayerFigures::mixed_triangles, &LayerFigures::tangent_triangles};
 
 } // namespace
 
@@ -150,6 +159,7 @@ LayerFigures figures_of(const LayerRow& row) {
     figures.fold_bytes = double(row.fold_bytes);
     figures.fold_share = row.file_bytes == 0 ? 0 : double(row.fold_bytes) / double(row.file_bytes);
     figures.mixed_triangles = row.mixed_triangles;
+    figures.tangent_triangles = row.tangent_triangles;
     return figures;
 }
 

@@ -25,6 +25,7 @@ struct LayerFigures {
     double file_bytes = 0, fold_bytes = 0;
     double fold_share = 0; // of the file
     double mixed_triangles = 0;
+    double tangent_triangles = 0; // LayerRow::tangent_triangles
 };
 
 LayerFigures figures_of(const LayerRow& row);
@@ -42,7 +43,7 @@ std::size_t closed_count(std::span<const LayersMesh> meshes);
 struct LayersBar {
     std::string name; // such as "false hits"
     std::uint32_t cells = 0;
-    bool worst_size = false; // cells: that at which the value is worst, of all that were measured
+    bool worst_size = false; // cells: that at which the value is worst, of 128 and 256, or of all
     double value = 0;
     double limit = 0;
     bool at_least = false; // value >= limit is asked; else value <= limit
@@ -56,7 +57,8 @@ struct LayersBar {
 };
 
 // Of the mean of the closed meshes with two intervals and folds: false and missed hits and mean |dt| at 128
-// and 256 cells; interior hits, time and bytes at the size where they are worst. Of every open mesh how many
+// and 256 cells; interior hits, time and bytes at that of these two where they are worst (of
+// all sizes, if neither was measured). Of every open mesh how many
 // times fewer false hits folds have than one depth. What was not measured is left out.
 std::vector<LayersBar> layers_bars(std::span<const LayersMesh> meshes);
 

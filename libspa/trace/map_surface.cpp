@@ -19,15 +19,6 @@ namespace {
 using Plane = shader::SpaPlane;
 
 constexpr float far_w = SPA_FAR;
-// Of samples: a depth of 1e-9 R, where single precision sees nothing; products of such numbers stay finite.
-constexpr float most_w = 1e9F;
-
-const Surface* surface_at(const Part& part, std::uint32_t surface) {
-    const Layer& layer = part.layers[surface / 2];
-    const Surface& found = surface % 2 == 0 ? layer.outer : layer.inner;
-    return found.empty() ? nullptr : &found;
-}
-
 // A triangle of the grid; x and y count cells of its quadrant from the middle.
 struct MapTriangle {
     std::uint32_t quadrant = 0;
@@ -250,7 +241,7 @@ private:
 
     // Of w over (u, v) along the plane through a stored point with its stored normal.
     [[nodiscard]] Slope tangent(const MapTriangle& t, const Corner& corner, std::uint32_t surface) const {
-        const Surface* const stored = surface_at(part_, surface);
+        const Surface* const stored = stored_surface(part_, surface);
         if (stored == nullptr || stored->normal.empty()) return {};
         const ImageView& normals = stored->normal;
         const Vec3d g = sample_direction(samples_.grid, corner.texel);
@@ -306,7 +297,11 @@ private:
     std::uint32_t add_mixed(const MapTriangle& t, Ranges& ranges, float& core) {
         const std::array<Corner, 3> corners = corners_of(samples_.grid, t);
         std::uint32_t count = 0;
-        if (folds_ && add_folds(t, corners, ranges, core, count)) return count;
+        if (folds_ && add_folds(t, corners, ranges, core, count)) {
+            ++result_.fold_triangles;
+            return count;
+        }
+        ++result_.tangent_triangles;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t n = intervals_at(corners[i].texel);
             if (core_at(corners[i].texel) >= far_w) core = far_w;
@@ -439,41 +434,7 @@ private:
     std::vector<FoldPrism> prisms_; // of the triangle at hand
 };
 
-void read_depths(const ImageView& image, std::vector<float>& depths) {
-    depths.resize(std::size_t(image.width) * image.height);
-    const std::size_t size = element_size(image.format);
-    for (std::size_t i = 0; i < depths.size(); ++i)
-        depths[i] = decode_depth(image.format, image.bytes.data() + i * size);
-}
-
 } // namespace
-
-MapSamples read_samples(const Part& part, std::uint32_t layers) {
-    MapSamples samples;
-    const ImageView& depth = part.layers.front().outer.depth;
-    samples.grid = {part.mapping, depth.width, depth.height};
-    read_depths(depth, samples.depth);
-    const auto stored = std::uint32_t(part.layers.size());
-    const std::uint32_t kept = layers == 0 ? stored : std::min(layers, stored);
-    samples.surfaces = kept == 1 && part.layers.front().inner.empty() ? 1 : 2 * kept;
-    if (part.mapping != Mapping::octahedral) return samples;
-    const std::size_t count = samples.count();
-    std::vector<double> lengths(count);
-    for (std::uint32_t y = 0; y < depth.height; ++y)
-        for (std::uint32_t x = 0; x < depth.width; ++x)
-            lengths[std::size_t(y) * depth.width + x] = length(sample_direction(samples.grid, {x, y}));
-    samples.w.assign(samples.surfaces * count, far_w);
-    std::vector<float> depths;
-    for (std::uint32_t s = 0; s < samples.surfaces; ++s) {
-        const Surface* const surface = surface_at(part, s);
-        if (surface == nullptr) continue;
-        read_depths(surface->depth, depths);
-        for (std::size_t i = 0; i < count; ++i)
-            if (depths[i] > 0)
-                samples.w[s * count + i] = std::min(float(lengths[i] / double(depths[i])), most_w);
-    }
-    return samples;
-}
 
 MapCells find_cells(const Part& part, const MapSamples& samples) { return CellFinder(part, samples).find(); }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "map_ranges.h"
+#include "map_samples.h"
 
 #include "../core/spherical_map.h"
 
@@ -11,19 +12,6 @@
 #include <vector>
 
 namespace spa::trace {
-
-struct MapSamples {
-    Grid grid;
-    std::uint32_t surfaces = 1; // 1, or 2 a layer: outer, inner
-    std::vector<float> depth;   // r/R of the outermost surface, 0 = none
-    std::vector<float> w;       // octahedral: 1/|q|_1, plane by plane; SPA_FAR = none, or to the centre
-
-    [[nodiscard]] std::size_t count() const { return std::size_t(grid.width) * grid.height; }
-    [[nodiscard]] std::uint32_t layers() const { return (surfaces + 1) / 2; }
-};
-
-// layers: as many at most; 0: all.
-MapSamples read_samples(const Part& part, std::uint32_t layers);
 
 // The cells of an octahedral map. A quadrant has 2^levels x 2^levels of them, padding included; x counts from
 // the middle to the right, and those to the left of the middle, counted to the left, come after them; so does
@@ -36,10 +24,11 @@ struct MapCells {
     std::vector<std::uint32_t> cells;  // SPA_CELL_PURE, SPA_CELL_LAYERS, or where a cell's two lists are in
                                        // `lists`; empty: all are pure
     std::vector<std::uint32_t> places; // which words of `lists` are themselves places in `lists`
-    float radius = 0;                  // of the farthest point, in units of R, rounded up
-    Vec3f box_low, box_high;           // around all points, rounded outward
-    float w_min = 0, w_max = 0;        // of all finite ends; 1 if there are none
-    bool uniform_core = false;         // around the centre, within 1/w_max, everything is solid, or nothing
+    std::size_t fold_triangles = 0, tangent_triangles = 0; // mixed ones, by what divides them
+    float radius = 0;                                      // of the farthest point, in units of R, rounded up
+    Vec3f box_low, box_high;                               // around all points, rounded outward
+    float w_min = 0, w_max = 0;                            // of all finite ends; 1 if there are none
+    bool uniform_core = false; // around the centre, within 1/w_max, everything is solid, or nothing
 };
 
 // O(samples). At most 2^14 cells a side.

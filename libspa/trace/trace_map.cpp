@@ -50,7 +50,8 @@ std::vector<std::uint32_t> patterns(std::span<const float> values) {
 // Beyond which w rays are not followed, in units of the greatest w (docs/tracing.md, "The core").
 constexpr float uniform_core = 2, mixed_core = 64;
 
-void add_cells(const Part& part, const MapSamples& samples, std::vector<std::uint32_t>& words) {
+// Gives back TraceMap::tangent_share().
+double add_cells(const Part& part, const MapSamples& samples, std::vector<std::uint32_t>& words) {
     const MapCells cells = find_cells(part, samples);
     const float w_core = cells.w_max * (cells.uniform_core ? uniform_core : mixed_core);
     const NodePyramid pyramid = build_pyramid(cells, w_core, samples.surfaces > 1 ? 2 : 1);
@@ -66,7 +67,7 @@ void add_cells(const Part& part, const MapSamples& samples, std::vector<std::uin
     words[SPA_HEADER_NODES] = append(words, pyramid.nodes);
     if (!pyramid.cores.empty()) words[SPA_HEADER_CORES] = append(words, patterns(pyramid.cores));
     words[SPA_HEADER_SAMPLES] = append(words, patterns(samples.w));
-    if (cells.cells.empty()) return;
+    if (cells.cells.empty()) return 0;
     const auto lists = std::uint32_t(words.size() + cells.cells.size());
     std::vector<std::uint32_t> places = cells.cells;
     for (std::uint32_t& place : places)
@@ -74,6 +75,8 @@ void add_cells(const Part& part, const MapSamples& samples, std::vector<std::uin
     words[SPA_HEADER_CELLS] = append(words, places);
     words[SPA_HEADER_PRISMS] = append(words, cells.lists);
     for (const std::uint32_t place : cells.places) words[lists + place] += lists;
+    const std::size_t mixed = cells.fold_triangles + cells.tangent_triangles;
+    return mixed == 0 ? 0 : double(cells.tangent_triangles) / double(mixed);
 }
 
 } // namespace
@@ -90,7 +93,7 @@ TraceMap::TraceMap(const Part& part, const CompileOptions& options) {
     words[SPA_HEADER_HEIGHT] = depth.height;
     words[SPA_HEADER_SURFACES] = samples.surfaces;
     words[SPA_HEADER_RADIUS] = bits(1.0F);
-    if (part.mapping == Mapping::octahedral) add_cells(part, samples, words);
+    if (part.mapping == Mapping::octahedral) tangent_share_ = add_cells(part, samples, words);
     words[SPA_HEADER_DEPTHS] = append(words, patterns(samples.depth));
     const std::vector<std::uint32_t> no_table(std::size_t(samples.surfaces) * SPA_IMAGE_WORDS, 0);
     words[SPA_HEADER_IMAGES] = append(words, no_table);

@@ -40,6 +40,9 @@ public:
     // Bytes that a trace touches at most: nodes, cores, samples, cells, prisms. Without images and without
     // what fan and march read.
     [[nodiscard]] std::size_t projective_bytes() const;
+    // Share of the mixed triangles that are divided along tangent planes, for want of folds or because they
+    // make no sense there; 0 if none is mixed.
+    [[nodiscard]] double tangent_share() const { return tangent_share_; }
     // Bytes of the depths that fan and march read.
     [[nodiscard]] std::size_t depth_bytes() const;
 
@@ -48,6 +51,7 @@ private:
 
     std::vector<std::uint32_t> words_;
     shader::SpaMap map_;
+    double tangent_share_ = 0;
 };
 
 } // namespace spa::trace

@@ -71,11 +71,19 @@ TEST(ClosedMean, LeavesOpenMeshesOut) {
     EXPECT_TRUE(closed_mean({}).empty());
 }
 
+// Where neither 128 nor 256 was measured.
+TEST(LayersBars, TakeTheWorstSizeThereIs) {
+    const auto bars = layers_bars(std::vector{
+        mesh("only", 0,
+             {row(Reconstruction::folds, 2, 32, 10, 1, 2), row(Reconstruction::folds, 2, 64, 10, 1, 4)})});
+    EXPECT_NEAR(find(bars, "interior false hits", 64).value, 4e-5, 1e-12);
+}
+
 TEST(LayersBars, AreOfTheMeanAndNameTheWorstMesh) {
     const auto rows = [](std::uint64_t extra, std::uint64_t interior) {
         return std::vector{row(Reconstruction::tangents, 2, 128, 9000, 9000),
-                           row(Reconstruction::folds, 2, 64, 5000, 1, interior),
-                           row(Reconstruction::folds, 2, 128, extra, 300)};
+                           row(Reconstruction::folds, 2, 64, 5000, 1, 900),
+                           row(Reconstruction::folds, 2, 128, extra, 300, interior)};
     };
     const auto bars = layers_bars(std::vector{mesh("good", 0, rows(100, 0)), mesh("bad", 0, rows(180, 8))});
     const LayersBar& extra = find(bars, "false hits", 128);
@@ -84,13 +92,13 @@ TEST(LayersBars, AreOfTheMeanAndNameTheWorstMesh) {
     EXPECT_EQ(extra.worst_mesh, "bad");
     EXPECT_NEAR(extra.worst, 180e-5, 1e-12);
     EXPECT_FALSE(find(bars, "missed hits", 128).reached());
-    const LayersBar& interior = find(bars, "interior false hits", 64);
+    const LayersBar& interior = find(bars, "interior false hits", 128);
     EXPECT_TRUE(interior.worst_size);
     EXPECT_NEAR(interior.value, 4e-5, 1e-12);
     EXPECT_TRUE(interior.reached());
     EXPECT_THROW(find(bars, "false hits", 64), std::runtime_error) << "there is no bar at that size";
     EXPECT_THROW(find(bars, "false hits", 256), std::runtime_error) << "not measured";
-    EXPECT_FALSE(find(bars, "time against one interval", 64).reached());
+    EXPECT_FALSE(find(bars, "time against one interval", 128).reached());
 }
 
 TEST(LayersBars, OfOpenMeshesSetFoldsAgainstOneDepth) {
