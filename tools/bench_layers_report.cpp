@@ -38,10 +38,10 @@ struct Column {
     const char* title;
     std::size_t width;
 };
-constexpr Column columns[] = {{"K", 2},     {"N", 5},      {"false%", 7}, {"miss%", 7},
-                              {"in f%", 7}, {"in m%", 7},  {"mean", 8},   {"p95", 8},
-                              {"p99", 8},   {"normal", 7}, {"ns", 5},     {"x K=1", 6},
-                              {"KiB", 5},   {"folds", 6},  {"mixed%", 7}, {"tang%", 6}};
+constexpr Column columns[] = {{"K", 2},     {"N", 5},     {"false%", 7}, {"miss%", 7},
+                              {"in f%", 7}, {"in m%", 7}, {"mean", 8},   {"p95", 8},
+                              {"p99", 8},   {"deg", 6},   {"ns", 5},     {"x K=1", 6},
+                              {"KiB", 5},   {"folds", 6}, {"mixed%", 7}, {"tang%", 6}};
 
 std::string titles(const std::string& first) {
     std::string text = pad_right(first, name_width);
@@ -130,7 +130,8 @@ constexpr const char* legend =
     "samples see different surfaces, joined by the planes of stored normals, or by fold records.\n\n"
     "Random chords of the sphere, % of all of them: false: the map alone is hit; miss: the mesh alone is; in "
     "f, in m: those of them that no silhouette passes within two texels of 2/N R. mean, p95, p99: |dt| in R "
-    "where both are hit; normal: degrees. ns: a ray of a stream, one thread, median; x K=1: of each run, to "
+    "where both are hit; deg: between normals. ns: a ray of a stream, one thread, median; x K=1: of each "
+    "run, to "
     "one interval of the same kind, median. KiB: the file; folds: how much larger fold records make it; "
     "mixed: of the map's triangles; tang: of these, what folds leave to tangent planes.\n\n";
 

@@ -87,10 +87,10 @@ TEST(LayersBars, AreOfTheMeanAndNameTheWorstMesh) {
     };
     const auto bars = layers_bars(std::vector{mesh("good", 0, rows(100, 0)), mesh("bad", 0, rows(180, 8))});
     const LayersBar& extra = find(bars, "false hits", 128);
-    EXPECT_NEAR(extra.value, 140e-5, 1e-12);
+    EXPECT_NEAR(extra.value, 144e-5, 1e-12); // the interior ones are among them
     EXPECT_TRUE(extra.reached());
     EXPECT_EQ(extra.worst_mesh, "bad");
-    EXPECT_NEAR(extra.worst, 180e-5, 1e-12);
+    EXPECT_NEAR(extra.worst, 188e-5, 1e-12);
     EXPECT_FALSE(find(bars, "missed hits", 128).reached());
     const LayersBar& interior = find(bars, "interior false hits", 128);
     EXPECT_TRUE(interior.worst_size);
