@@ -172,7 +172,6 @@ private:
         for (const EdgeFolds& edge : found) {
             if (edge.unresolved) ++folds.statistics.unresolved;
             for (const FoldRecord& record : edge.records) {
-                ++(record.pair ? folds.statistics.pairs : folds.statistics.singles);
                 folds.records.push_back(record);
                 const std::uint32_t other = twin(cells_, record.edge);
                 if (other == record.edge) continue;
@@ -186,6 +185,8 @@ private:
             matching_edges[edges_[e].number] = 1;
             matching_edges[twin(cells_, edges_[e].number)] = 1;
         }
+        for (const FoldRecord& record : folds.records)
+            ++(record.pair ? folds.statistics.pairs : folds.statistics.singles);
         std::stable_sort(folds.records.begin(), folds.records.end(),
                          [](const FoldRecord& a, const FoldRecord& b) { return a.edge < b.edge; });
         return folds;
