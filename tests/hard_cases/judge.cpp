@@ -115,11 +115,10 @@ void Judge::add_mixed(const FoldTriangle& triangle, Vec3d signs, bool folds) {
 }
 
 void Judge::add_folded(const FoldRegion& region) {
-    for (std::size_t k = 0; k < region.intervals.size(); ++k) {
-        const FoldRegion::Interval& interval = region.intervals[k];
+    for (const FoldRegion::Interval& interval : region.intervals) {
         Piece piece;
-        piece.layer = std::uint32_t(k);
-        add_ends(piece, interval.outer, interval.inner, interval.to_center);
+        add_ends(piece, interval.outer, interval.inner, interval.to_center, interval.layer,
+                 interval.inner_layer);
         for (const Vec3d& corner : region.corners)
             w_max_ = std::max({w_max_, dot(interval.outer, corner), dot(interval.inner, corner)});
         for (std::size_t side = 0; side < region.sides.size(); ++side)
@@ -136,7 +135,6 @@ void Judge::add_pure(const FoldTriangle& triangle) {
     bool to_center = false;
     for (std::size_t k = 0; k < corners[0].size(); ++k) {
         Piece piece;
-        piece.layer = std::uint32_t(k);
         Vec3d outer, inner;
         for (unsigned i = 0; i < 3; ++i) {
             outer = outer + lambda.form[i] * corners[i][k].outer;
@@ -144,7 +142,7 @@ void Judge::add_pure(const FoldTriangle& triangle) {
             w_max_ = std::max({w_max_, corners[i][k].outer, corners[i][k].inner});
         }
         to_center = corners[0][k].inner == 0;
-        add_ends(piece, outer, inner, to_center);
+        add_ends(piece, outer, inner, to_center, k, k);
         for (const Vec3d& side : lambda.form) add_side(piece, side);
         pieces_.push_back(piece);
     }
@@ -164,11 +162,10 @@ void Judge::add_region(const FoldTriangle& triangle, unsigned i, Vec3d signs) {
     for (std::size_t layer = 0; layer < triangle.intervals[i].size(); ++layer) {
         const StoredInterval& interval = triangle.intervals[i][layer];
         Piece piece;
-        piece.layer = std::uint32_t(layer);
         to_center = interval.inner == 0;
         Vec3d outer, inner;
         limit_slopes(interval, g, region, signs, outer, inner);
-        add_ends(piece, outer, inner, to_center);
+        add_ends(piece, outer, inner, to_center, layer, layer);
         for (const Vec3d& corner : region)
             w_max_ = std::max({w_max_, dot(outer, corner), to_center ? 0 : dot(inner, corner)});
         add_side(piece, lambda.form[j]);
@@ -207,14 +204,23 @@ void Judge::limit_slopes(const StoredInterval& interval, Vec3d g, const std::arr
     }
 }
 
-void Judge::add_ends(Piece& piece, Vec3d outer, Vec3d inner, bool to_center) {
-    piece.halves[piece.count++] = {-outer, -1, overlap * (1 + length(outer)), trace::HitSide::outer, false};
-    if (!to_center)
-        piece.halves[piece.count++] = {inner, 1, overlap * (1 + length(inner)), trace::HitSide::inner, false};
+void Judge::add_ends(Piece& piece, Vec3d outer, Vec3d inner, bool to_center, std::size_t layer,
+                     std::size_t inner_layer) {
+    const auto add = [&](Vec3d plane, double offset, trace::HitSide side, std::size_t of) {
+        piece.halves[piece.count++] = {.plane = plane,
+                                       .offset = offset,
+                                       .slack = overlap * (1 + length(plane)),
+                                       .side = side,
+                                       .layer = std::uint32_t(of)};
+    };
+    add(-outer, -1, trace::HitSide::outer, layer);
+    if (!to_center) add(inner, 1, trace::HitSide::inner, inner_layer);
 }
 
+// A wall has the layer of the outer end.
 void Judge::add_side(Piece& piece, Vec3d plane, bool open) {
-    piece.halves[piece.count++] = {normalize(plane), 0, overlap, trace::HitSide::wall, open};
+    piece.halves[piece.count++] = {normalize(plane),     0,    overlap,
+                                   trace::HitSide::wall, open, piece.halves[0].layer};
 }
 
 void Judge::clip_piece(const Piece& piece, Vec3d o, Vec3d d, double lo, double hi, std::vector<Span>& spans) {
@@ -306,7 +312,7 @@ std::vector<Event> Judge::events(const RayD& ray) const {
                      .enters = enters,
                      .side = half.side,
                      .open = half.open,
-                     .layer = piece.layer,
+                     .layer = half.layer,
                      .normal = normalize(-half.plane)};
     };
     for (std::size_t i = 0; i < spans.size();) {

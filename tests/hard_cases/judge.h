@@ -82,13 +82,13 @@ private:
         double slack = 0; // how far rounding may move the plane, in units of plane . p
         trace::HitSide side = trace::HitSide::wall;
         bool open = false;
+        std::uint32_t layer = 0;
     };
     // One interval over a triangle or region.
     struct Piece {
         // Outer end, inner end if there is one, sides: those of a triangle and of five lines at most.
         std::array<HalfSpace, 10> halves;
         unsigned count = 0;
-        std::uint32_t layer = 0;
     };
     struct Span;
 
@@ -99,7 +99,8 @@ private:
     void add_folded(const FoldRegion& region);
     void limit_slopes(const StoredInterval& interval, Vec3d g, const std::array<Vec3d, 4>& region,
                       Vec3d signs, Vec3d& outer, Vec3d& inner) const;
-    void add_ends(Piece& piece, Vec3d outer, Vec3d inner, bool to_center);
+    void add_ends(Piece& piece, Vec3d outer, Vec3d inner, bool to_center, std::size_t layer,
+                  std::size_t inner_layer);
     static void add_side(Piece& piece, Vec3d plane, bool open = false);
     // Calls `visit` with the pieces whose triangles the point is in, or no farther than `reach` from; true:
     // one of the calls gave true.

@@ -36,6 +36,7 @@ struct Cut {
 struct Crossing {
     double w = 0;
     bool outer = false;
+    std::size_t layer = 0;
     std::array<std::optional<Cut>, 3> cuts;          // towards each corner
     std::array<std::optional<std::size_t>, 3> match; // the crossing of each other corner
     bool in_sheet = false;
@@ -45,6 +46,7 @@ using Corners = std::array<std::vector<Crossing>, 3>;
 struct Sheet {
     std::array<std::optional<std::size_t>, 3> crossing; // of each corner
     bool outer = false;
+    std::size_t layer = 0;         // of its crossing at the first corner that has one
     Vec3d w;                       // at the three corners of its plane, wherever the sheet is
     double least = 0;              // of the W that the plane goes through
     std::optional<Whole> line;     // reduced; above 0 on the side of the sheet
@@ -54,9 +56,10 @@ struct Sheet {
 
 std::vector<Crossing> crossings(const std::vector<StoredInterval>& intervals) {
     std::vector<Crossing> found;
-    for (const StoredInterval& interval : intervals) {
-        found.push_back({.w = interval.outer, .outer = true, .cuts = {}, .match = {}});
-        if (interval.inner > 0) found.push_back({.w = interval.inner, .cuts = {}, .match = {}});
+    for (std::size_t k = 0; k < intervals.size(); ++k) {
+        found.push_back({.w = intervals[k].outer, .outer = true, .layer = k, .cuts = {}, .match = {}});
+        if (intervals[k].inner > 0)
+            found.push_back({.w = intervals[k].inner, .layer = k, .cuts = {}, .match = {}});
     }
     return found;
 }
@@ -122,6 +125,7 @@ bool finish(const Corners& corners, Sheet& sheet) {
     for (unsigned i = 0; i < 3; ++i) {
         if (!sheet.crossing[i].has_value()) continue;
         const Crossing& crossing = corners[i][*sheet.crossing[i]];
+        if (points.empty()) sheet.layer = crossing.layer;
         sheet.outer = crossing.outer;
         Whole corner{};
         corner[i] = 1;
@@ -241,8 +245,12 @@ bool find_intervals(const std::vector<Sheet>& sheets, const std::vector<Whole>& 
         if (!sheet.outer) continue;
         FoldRegion::Interval interval;
         interval.outer = form(sheet.w);
+        interval.layer = sheet.layer;
         interval.to_center = k + 1 == there.size();
-        if (!interval.to_center) interval.inner = form(there[k + 1]->w);
+        if (!interval.to_center) {
+            interval.inner = form(there[k + 1]->w);
+            interval.inner_layer = there[k + 1]->layer;
+        }
         if (triangle.center_inside && interval.to_center && sheet.single) interval.open = sheet.at;
         region.intervals.push_back(interval);
     }

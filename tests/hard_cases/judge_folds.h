@@ -32,8 +32,9 @@ constexpr unsigned most_fold_lines = 5;
 // A convex part of a triangle: p with sides[k] . p >= 0 for all k.
 struct FoldRegion {
     struct Interval {
-        Vec3d outer, inner;              // the ends are the points with outer . p = 1, inner . p = 1
-        bool to_center = false;          // there is no inner end
+        Vec3d outer, inner;     // the ends are the points with outer . p = 1, inner . p = 1
+        bool to_center = false; // there is no inner end
+        std::size_t layer = 0, inner_layer = 0;
         std::optional<std::size_t> open; // the side at which its wall is open
     };
     std::vector<Vec3d> sides;
