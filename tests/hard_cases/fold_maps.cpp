@@ -268,16 +268,6 @@ std::vector<NamedPart> made_fold_parts() {
                                       },
                                       {{gap, true, 1, {0.66, 0.64}}, {slanted, true, 0, {0.7, 0.6}}})});
     }
-    // An interval that reaches the centre, and one behind it.
-    parts.push_back({"folds, behind the centre", with_endings(two,
-                                                              [](Vec3d g) {
-                                                                  std::vector<MadeInterval> found;
-                                                                  if (slanted(g) > 0)
-                                                                      found = {interval(0.8, 0, g)};
-                                                                  found.push_back(interval(0.5, 0.3, g));
-                                                                  return found;
-                                                              },
-                                                              {{slanted, false, 0, {0.7, 0}}})});
     for (NamedPart& part : nonsense_parts()) parts.push_back(std::move(part));
     return parts;
 }
