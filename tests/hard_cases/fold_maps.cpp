@@ -268,6 +268,19 @@ std::vector<NamedPart> made_fold_parts() {
                                       },
                                       {{gap, true, 1, {0.66, 0.64}}, {slanted, true, 0, {0.7, 0.6}}})});
     }
+    // Ends at the same place everywhere: a shell of no thickness, and one that lies on the ball behind it.
+    for (const bool thick : {false, true}) {
+        const double inner = thick ? 0.5 : 0.8;
+        parts.push_back({thick ? "folds, touching" : "folds, no thickness",
+                         with_endings(two,
+                                      [&](Vec3d g) {
+                                          std::vector<MadeInterval> found;
+                                          if (slanted(g) > 0) found.push_back(interval(0.8, inner, g));
+                                          found.push_back(interval(0.5, 0, g));
+                                          return found;
+                                      },
+                                      {{slanted, true, 0, {0.8, inner}}})});
+    }
     for (NamedPart& part : nonsense_parts()) parts.push_back(std::move(part));
     return parts;
 }

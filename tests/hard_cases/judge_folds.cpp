@@ -27,6 +27,8 @@ Vec3d to_vector(const Whole& a) { return {double(a[0]), double(a[1]), double(a[2
 // As coordinates that add up to 1.
 Vec3d as_point(const Whole& a) { return to_vector(a) * (1 / double(a[0] + a[1] + a[2])); }
 
+constexpr std::size_t edges = 3; // sides that are no lines
+
 struct Cut {
     Whole place{};
     double w = 0;
@@ -251,7 +253,8 @@ bool find_intervals(const std::vector<Sheet>& sheets, const std::vector<Whole>& 
             interval.inner = form(there[k + 1]->w);
             interval.inner_layer = there[k + 1]->layer;
         }
-        if (triangle.center_inside && interval.to_center && sheet.single) interval.open = sheet.at;
+        if (triangle.center_inside && interval.to_center && sheet.single && sheet.at >= edges)
+            interval.open = sheet.at;
         region.intervals.push_back(interval);
     }
     return true;
@@ -265,10 +268,10 @@ std::optional<std::vector<FoldRegion>> divide(const FoldTriangle& triangle) {
     const std::optional<std::vector<Whole>> lines = find_lines(*sheets);
     if (!lines.has_value()) return std::nullopt;
     std::vector<FoldRegion> regions;
-    for (std::size_t choice = 0; choice < std::size_t(1) << (lines->size() - 3); ++choice) {
+    for (std::size_t choice = 0; choice < std::size_t(1) << (lines->size() - edges); ++choice) {
         std::vector<Whole> sides = *lines;
-        for (std::size_t k = 3; k < sides.size(); ++k)
-            if ((choice >> (k - 3) & 1U) != 0) sides[k] = negative(sides[k]);
+        for (std::size_t k = edges; k < sides.size(); ++k)
+            if ((choice >> (k - edges) & 1U) != 0) sides[k] = negative(sides[k]);
         const std::vector<Whole> corners = corners_of(sides);
         if (corners.empty()) continue;
         if (!find_intervals(*sheets, sides, corners, triangle, regions.emplace_back())) return std::nullopt;
