@@ -285,6 +285,65 @@ std::vector<NamedPart> made_fold_parts() {
     return parts;
 }
 
+// Of a solid with shells, each end of which has depths of its own, some samples lack neighbouring ends: two
+// that would run into each other, or the last one, which is a border. Which, and where between the samples
+// they end, is at random; an end that both samples have is the same surface.
+OwnedPart random_shells(const MadePart& made, double alone) {
+    Generator random(made.seed);
+    const std::size_t ends = 2 * std::size_t(made.layers) - 1; // the last interval reaches the centre
+    const auto depth = [&](std::size_t end) {
+        const double step = 0.8 / double(ends);
+        return 0.95 - step * (double(end) + std::uniform_real_distribution<double>(0.2, 0.8)(random));
+    };
+    const auto which = [&](double at) { return std::size_t((0.95 - at) / (0.8 / double(ends))); };
+    OwnedPart owned = make_part(made, [&](Vec3d g) {
+        std::vector<std::size_t> left(ends);
+        for (std::size_t i = 0; i < ends; ++i) left[i] = i;
+        for (int i = 0; i < 2 && left.size() > 1; ++i) {
+            if (!chance(random, 0.4)) continue;
+            const auto first = left.begin() + below(random, left.size() - 1);
+            left.erase(first, first + 2);
+        }
+        if (left.size() == 1 && chance(random, 0.3)) left.clear();
+        std::vector<MadeInterval> found;
+        for (std::size_t i = 0; i < left.size(); i += 2)
+            found.push_back(interval(depth(left[i]), i + 1 < left.size() ? depth(left[i + 1]) : 0, g));
+        return found;
+    });
+    const StoredSamples samples(owned.part, 0);
+    std::vector<FoldRecord> records;
+    each_edge(made.cells, [&](std::uint32_t edge, const std::array<TexelIndex, 2>& at) {
+        std::array<std::vector<std::size_t>, 2> left;
+        for (std::size_t i = 0; i < 2; ++i)
+            for (const End& end : ends_of(samples, at[i])) left[i].push_back(which(end.depth));
+        const auto lonely = [&](std::size_t i, std::size_t k) {
+            return k < left[i].size() &&
+                   std::find(left[1 - i].begin(), left[1 - i].end(), left[i][k]) == left[1 - i].end();
+        };
+        const std::uint32_t usual = below(random, 256);
+        for (std::size_t i = 0; i < 2; ++i) {
+            for (std::size_t k = left[i].size(); k-- > 0;) {
+                if (!lonely(i, k)) continue;
+                // The innermost of those that may be a pair, from behind.
+                const bool pair = k > 0 && lonely(i, k - 1) && (left[i][k] + left[i][k - 1]) % 2 == 1 &&
+                                  !chance(random, alone);
+                if (pair) --k;
+                FoldRecord record{edge, pair, std::uint8_t(i), std::uint8_t(k)};
+                record.place = std::uint8_t(chance(random, 0.1)   ? 255
+                                            : chance(random, 0.5) ? usual
+                                                                  : below(random, 256));
+                record.cut[0] = code(depth(left[i][k]));
+                if (pair) record.cut[1] = code(depth(left[i][k + 1]));
+                left[i].erase(left[i].begin() + std::ptrdiff_t(k),
+                              left[i].begin() + std::ptrdiff_t(k + (pair ? 2 : 1)));
+                records.push_back(record);
+            }
+        }
+    });
+    set_folds(owned, std::move(records));
+    return owned;
+}
+
 std::vector<NamedPart> random_fold_parts() {
     using enum ElementFormat;
     std::vector<NamedPart> parts;
@@ -293,6 +352,11 @@ std::vector<NamedPart> random_fold_parts() {
         add_random_folds(owned, nonsense, made.seed);
         parts.push_back({name, std::move(owned)});
     };
+    parts.push_back({"random shells 8, 2 layers",
+                     random_shells({.cells = 8, .layers = 2, .center_inside = true, .seed = 31}, 0)});
+    parts.push_back({"random shells 10, 3 layers", random_shells({.cells = 10, .layers = 3, .seed = 32}, 0)});
+    parts.push_back({"random shells 6, 4 layers",
+                     random_shells({.cells = 6, .layers = 4, .mixed_share = 0.3, .seed = 33}, 0.1)});
     add("random folds 2, 2 layers", {.cells = 2, .layers = 2, .seed = 21}, 0);
     add("random folds 6, 1 layer", {.cells = 6, .mixed_share = 0.2, .center_inside = true, .seed = 22}, 0);
     add("random folds 12, 2 layers",
