@@ -63,6 +63,8 @@ public:
     [[nodiscard]] bool near_face(Vec3d point, double reach, const Event& face, bool any_layer) const;
     // Whether the point is that near to a face of the solid by which the ray enters, or leaves.
     [[nodiscard]] bool near_passage(Vec3d point, double reach, Vec3d direction, bool enters) const;
+    // Whether the point is that near to the line from the centre through a sample.
+    [[nodiscard]] bool near_sample_line(Vec3d point, double reach) const;
     // Points just inside those pieces whose boundaries pass the point at no more than `reach`, no farther
     // from it.
     [[nodiscard]] std::vector<Vec3d> points_inside(Vec3d point, double reach) const;

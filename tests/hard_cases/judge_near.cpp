@@ -92,6 +92,14 @@ bool Judge::near_passage(Vec3d point, double reach, Vec3d direction, bool enters
     });
 }
 
+bool Judge::near_sample_line(Vec3d point, double reach) const {
+    const double l = std::abs(point.x) + std::abs(point.y) + std::abs(point.z);
+    const Vec3d cells = point * (n_ / l);
+    const auto round = [](double v) { return std::round(v); };
+    const Vec3d sample = Vec3d{round(cells.x), round(cells.y), round(cells.z)} * (l / n_);
+    return length(cross(point, sample)) <= reach * length(sample);
+}
+
 std::vector<Vec3d> Judge::points_inside(Vec3d point, double reach) const {
     constexpr double deep = 1e-8;
     std::vector<Vec3d> points;

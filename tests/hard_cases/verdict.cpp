@@ -150,7 +150,7 @@ private:
     struct Answer {
         std::vector<Event> events;
         std::optional<Event> first;
-        bool filled = false; // without thin gaps
+        bool filled = false; // without thin gaps, or without tips
     };
 
     void add(const RayD& ray) {
@@ -158,6 +158,21 @@ private:
         answers_.push_back({events, Judge::first(events, ray, flags_), false});
         const std::vector<Event> filled = judge_.without_thin_gaps(events, ray, step);
         answers_.push_back({filled, Judge::first(filled, ray, flags_), true});
+        const std::vector<Event> thick = without_tips(events);
+        if (thick.size() != events.size())
+            answers_.push_back({thick, Judge::first(thick, ray, flags_), true});
+    }
+
+    // The events, but for solid less than a step long that a wall bounds.
+    [[nodiscard]] std::vector<Event> without_tips(const std::vector<Event>& events) const {
+        std::vector<Event> left;
+        for (std::size_t i = 0; i + 1 < events.size(); i += 2) {
+            const bool wall =
+                events[i].side == trace::HitSide::wall || events[i + 1].side == trace::HitSide::wall;
+            if (wall && (events[i + 1].t - events[i].t) * speed_ < step) continue;
+            left.insert(left.end(), {events[i], events[i + 1]});
+        }
+        return left;
     }
 
     const Judge& judge_;
@@ -219,7 +234,8 @@ Judgement judge_once(const Judge& judge, const trace::Ray& ray, std::uint32_t fl
     const bool in_core = near.in_core(t, bound);
     if (!is_there || !nothing_before)
         judgement.verdict = truth.has_value() ? Verdict::wrong_time : Verdict::invented;
-    else if (!in_core && !judge.near_face(point, bound, face, leaves_wall(hit)))
+    else if (!in_core && !judge.near_face(point, bound, face, leaves_wall(hit)) &&
+             !(leaves_wall(hit) && judge.near_sample_line(point, bound)))
         judgement.verdict = Verdict::wrong_record;
     else
         judgement.verdict = Verdict::excused;
