@@ -114,6 +114,7 @@ private:
     bool any_face(Vec3d point, double reach, const Visit& visit) const;
     // How far inside a point is; below 0: outside.
     static double depth_in(const Piece& piece, Vec3d point);
+    static Vec3d moved_into(const Piece& piece, Vec3d point);
     void note_core(bool solid) { (solid ? some_solid_ : some_empty_) = true; }
 
     [[nodiscard]] std::size_t bin(unsigned octant, unsigned i, unsigned j) const {

@@ -28,6 +28,20 @@ double Judge::depth_in(const Piece& piece, Vec3d point) {
     return depth;
 }
 
+// Just inside the piece, if it is wide enough.
+Vec3d Judge::moved_into(const Piece& piece, Vec3d point) {
+    constexpr double deep = 1e-8;
+    for (int i = 0; i < 20; ++i) {
+        for (unsigned k = 0; k < piece.count; ++k) {
+            const HalfSpace& half = piece.halves[k];
+            const double size = length(half.plane);
+            const double missing = deep - (dot(half.plane, point) - half.offset) / size;
+            if (missing > 0) point = point + half.plane * (missing / size);
+        }
+    }
+    return point;
+}
+
 template <class Visit>
 bool Judge::any_near(Vec3d point, double reach, const Visit& visit) const {
     for (unsigned octant = 0; octant < 8; ++octant) {
@@ -58,12 +72,15 @@ template <class Visit>
 bool Judge::any_face(Vec3d point, double reach, const Visit& visit) const {
     return any_near(point, reach, [&](const Piece& piece) {
         if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
-        return std::any_of(piece.halves.begin(), piece.halves.begin() + piece.count,
-                           [&](const HalfSpace& half) {
-                               const double size = length(half.plane);
-                               return std::abs(dot(half.plane, point) - half.offset) <= reach * size &&
-                                      visit(half, size) && !solid(point - half.plane * (2 * reach / size));
-                           });
+        // Beyond the face there is nothing; beside a point at the piece's side, where what is beyond that
+        // side may be solid, as well as at it.
+        return std::any_of(
+            piece.halves.begin(), piece.halves.begin() + piece.count, [&](const HalfSpace& half) {
+                const double size = length(half.plane);
+                const Vec3d out = half.plane * (-2 * reach / size);
+                return std::abs(dot(half.plane, point) - half.offset) <= reach * size && visit(half, size) &&
+                       (!solid(point + out) || !solid(moved_into(piece, point) + out));
+            });
     });
 }
 
@@ -101,19 +118,10 @@ bool Judge::near_sample_line(Vec3d point, double reach) const {
 }
 
 std::vector<Vec3d> Judge::points_inside(Vec3d point, double reach) const {
-    constexpr double deep = 1e-8;
     std::vector<Vec3d> points;
     any_near(point, reach, [&](const Piece& piece) {
         if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
-        Vec3d inside = point;
-        for (int i = 0; i < 20; ++i) {
-            for (unsigned k = 0; k < piece.count; ++k) {
-                const HalfSpace& half = piece.halves[k];
-                const double size = length(half.plane);
-                const double missing = deep - (dot(half.plane, inside) - half.offset) / size;
-                if (missing > 0) inside = inside + half.plane * (missing / size);
-            }
-        }
+        const Vec3d inside = moved_into(piece, point);
         if (length(inside - point) <= reach) points.push_back(inside);
         return false;
     });
