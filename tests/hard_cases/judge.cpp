@@ -224,8 +224,6 @@ void Judge::add_side(Piece& piece, Vec3d plane, bool open) {
 }
 
 void Judge::clip_piece(const Piece& piece, Vec3d o, Vec3d d, double lo, double hi, std::vector<Span>& spans) {
-    // Clipped by none of its planes.
-    const auto none = unsigned(piece.halves.size());
     Span span{lo, hi, &piece, &piece, none, none};
     for (unsigned k = 0; k < piece.count; ++k) {
         const HalfSpace& half = piece.halves[k];

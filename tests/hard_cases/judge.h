@@ -93,6 +93,7 @@ private:
         unsigned count = 0;
     };
     struct Span;
+    static constexpr unsigned none = 0xFFFFFFFFU; // of a piece's planes
 
     static bool is_pure(const FoldTriangle& triangle, bool marked);
     void add_pure(const FoldTriangle& triangle);
@@ -114,7 +115,7 @@ private:
     bool any_face(Vec3d point, double reach, const Visit& visit) const;
     // How far inside a point is; below 0: outside.
     static double depth_in(const Piece& piece, Vec3d point);
-    static Vec3d moved_into(const Piece& piece, Vec3d point);
+    static Vec3d moved_into(const Piece& piece, Vec3d point, unsigned but = none, double out = 0);
     void note_core(bool solid) { (solid ? some_solid_ : some_empty_) = true; }
 
     [[nodiscard]] std::size_t bin(unsigned octant, unsigned i, unsigned j) const {

@@ -28,15 +28,16 @@ double Judge::depth_in(const Piece& piece, Vec3d point) {
     return depth;
 }
 
-// Just inside the piece, if it is wide enough.
-Vec3d Judge::moved_into(const Piece& piece, Vec3d point) {
+// Just inside all planes of the piece, if it is wide enough, but beyond plane `but` by as much as `out`.
+Vec3d Judge::moved_into(const Piece& piece, Vec3d point, unsigned but, double out) {
     constexpr double deep = 1e-8;
     for (int i = 0; i < 20; ++i) {
         for (unsigned k = 0; k < piece.count; ++k) {
             const HalfSpace& half = piece.halves[k];
             const double size = length(half.plane);
-            const double missing = deep - (dot(half.plane, point) - half.offset) / size;
-            if (missing > 0) point = point + half.plane * (missing / size);
+            const double depth = (dot(half.plane, point) - half.offset) / size;
+            const double missing = k == but ? std::min(-out - depth, 0.0) : std::max(deep - depth, 0.0);
+            point = point + half.plane * (missing / size);
         }
     }
     return point;
@@ -72,15 +73,16 @@ template <class Visit>
 bool Judge::any_face(Vec3d point, double reach, const Visit& visit) const {
     return any_near(point, reach, [&](const Piece& piece) {
         if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
-        // Beyond the face there is nothing; beside a point at the piece's side, where what is beyond that
-        // side may be solid, as well as at it.
-        return std::any_of(
-            piece.halves.begin(), piece.halves.begin() + piece.count, [&](const HalfSpace& half) {
-                const double size = length(half.plane);
-                const Vec3d out = half.plane * (-2 * reach / size);
-                return std::abs(dot(half.plane, point) - half.offset) <= reach * size && visit(half, size) &&
-                       (!solid(point + out) || !solid(moved_into(piece, point) + out));
-            });
+        for (unsigned k = 0; k < piece.count; ++k) {
+            const HalfSpace& half = piece.halves[k];
+            const double size = length(half.plane);
+            if (std::abs(dot(half.plane, point) - half.offset) > reach * size || !visit(half, size)) continue;
+            if (!solid(point - half.plane * (2 * reach / size))) return true;
+            // What is beyond another side of the piece may hide that there is nothing beyond this one.
+            const Vec3d beyond = moved_into(piece, point, k, 2 * reach);
+            if (length(beyond - point) <= 8 * reach && !solid(beyond)) return true;
+        }
+        return false;
     });
 }
 
