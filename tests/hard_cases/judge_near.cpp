@@ -96,7 +96,7 @@ bool Judge::near_face(Vec3d point, double reach, const Event& face, bool any_lay
         return std::any_of(piece.halves.begin(), piece.halves.begin() + piece.count,
                            [&](const HalfSpace& half) {
                                const double size = length(half.plane);
-                               return half.side == face.side && (half.layer == face.layer || any_layer) &&
+                               return half.side == face.side && !half.open && (half.layer == face.layer || any_layer) &&
                                       dot(half.plane, face.normal) < -(1 - 1e-4) * size &&
                                       std::abs(dot(half.plane, point) - half.offset) <= reach * size;
                            });
