@@ -93,13 +93,13 @@ bool Judge::near_boundary(Vec3d point, double reach) const {
 bool Judge::near_face(Vec3d point, double reach, const Event& face, bool any_layer) const {
     return any_near(point, reach, [&](const Piece& piece) {
         if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
-        return std::any_of(piece.halves.begin(), piece.halves.begin() + piece.count,
-                           [&](const HalfSpace& half) {
-                               const double size = length(half.plane);
-                               return half.side == face.side && !half.open && (half.layer == face.layer || any_layer) &&
-                                      dot(half.plane, face.normal) < -(1 - 1e-4) * size &&
-                                      std::abs(dot(half.plane, point) - half.offset) <= reach * size;
-                           });
+        return std::any_of(
+            piece.halves.begin(), piece.halves.begin() + piece.count, [&](const HalfSpace& half) {
+                const double size = length(half.plane);
+                return half.side == face.side && !half.open && (half.layer == face.layer || any_layer) &&
+                       dot(half.plane, face.normal) < -(1 - 1e-4) * size &&
+                       std::abs(dot(half.plane, point) - half.offset) <= reach * size;
+            });
     });
 }
 
