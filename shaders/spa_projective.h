@@ -25,6 +25,10 @@ SPA_BEGIN
 // takes off, so that no stretch is left before its end.
 #define SPA_LATER 1.0000004f
 
+// A ray that is beyond a cell's diagonal by less than this, in units of the map's width in cells, is not: it
+// is rounding, as at the end of a stretch where the diagonal is the border of its octant.
+#define SPA_DIAGONAL 2.4e-7f
+
 // The float of a node's code. Codes are rounded outward: a lower end comes out no greater, an upper end no
 // less.
 SPA_FUNCTION float spa_decode(SPA_IN(SpaMap) map, uint code) {
@@ -94,7 +98,8 @@ SPA_FUNCTION bool spa_cross_cell(SPA_IN(SpaMap) map, SPA_IN(SpaStretch) stretch,
     float w1 = stretch.w0 + s1 * stretch.dw;
     float g0 = u0 + v0 - 1.0f; // beyond the diagonal
     float g1 = u1 + v1 - 1.0f;
-    bool two = (g0 < 0.0f && g1 > 0.0f) || (g0 > 0.0f && g1 < 0.0f);
+    float least = SPA_DIAGONAL * float(map.width - 1u);
+    bool two = (g0 < -least && g1 > least) || (g0 > least && g1 < -least);
     float f = two ? g0 / (g0 - g1) : 1.0f;
     float sm = two ? s0 + (s1 - s0) * f : s1;
     float um = two ? u0 + (u1 - u0) * f : u1;

@@ -91,9 +91,8 @@ bool find_intervals(const Sheets& sheets, const Region& region, std::uint32_t nu
     const CellPoint middle = centroid(region.corners);
     for (const Sheet& sheet : sheets.sheets)
         if (sheet.stands(region.beyond)) here.push_back({sheet.plane.at(middle.u, middle.v), &sheet});
-    std::stable_sort(here.begin(), here.end(), [](const Here& a, const Here& b) {
-        return a.w < b.w || (a.w == b.w && !a.sheet->inner && b.sheet->inner);
-    });
+    // Of equal W: in the order of their crossings, as sheets are.
+    std::stable_sort(here.begin(), here.end(), [](const Here& a, const Here& b) { return a.w < b.w; });
     for (std::size_t i = 0; i < here.size(); ++i)
         if (here[i].sheet->inner != (i % 2 == 1)) return false;
     for (std::size_t i = 0; i < here.size(); i += 2) {

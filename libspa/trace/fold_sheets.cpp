@@ -139,16 +139,19 @@ private:
         const Cut& first = cuts_[lacks[0]][number(a, at[a])];
         const Cut& second = cuts_[lacks[lacking - 1]][number(b, at[b])];
         if (!first.there || !second.there) return false;
-        sheet.least_w = std::min({sheet.least_w, first.w, second.w});
         sheet.ends_alone = first.alone && second.alone;
         if (count == 1) {
+            sheet.least_w = std::min({sheet.least_w, first.w, second.w});
             sheet.plane = plane_through(places_[a], w_at(a, at[a]), first.at, first.w, second.at, second.w);
         } else {
+            sheet.least_w = std::min(sheet.least_w, (first.w + second.w) / 2);
             const CellPoint middle{(first.at.u + second.at.u) / 2, (first.at.v + second.at.v) / 2};
             sheet.plane = plane_through(places_[a], w_at(a, at[a]), places_[b], w_at(b, at[b]), middle,
                                         (first.w + second.w) / 2);
         }
-        if (!end_at(first.at, second.at, places_[a], sheet, sheets)) return false;
+        // One of two corners may be on the line.
+        const CellPoint inside{(places_[a].u + places_[b].u) / 2, (places_[a].v + places_[b].v) / 2};
+        if (!end_at(first.at, second.at, inside, sheet, sheets)) return false;
         sheets.sheets.push_back(sheet);
         return true;
     }

@@ -199,8 +199,10 @@ HWY_INLINE CrossLanes cross_cells(const shader::SpaMap& map, const StretchLanes&
     const VF w1 = hn::Add(stretch.w0, hn::Mul(cell.s1, stretch.dw));
     const VF g0 = hn::Sub(hn::Add(u0, v0), one);
     const VF g1 = hn::Sub(hn::Add(u1, v1), one);
+    const VF least = hn::Set(df, SPA_DIAGONAL * float(map.width - 1));
+    const VF low = hn::Neg(least);
     const MF two =
-        hn::Or(hn::And(hn::Lt(g0, zero), hn::Gt(g1, zero)), hn::And(hn::Gt(g0, zero), hn::Lt(g1, zero)));
+        hn::Or(hn::And(hn::Lt(g0, low), hn::Gt(g1, least)), hn::And(hn::Gt(g0, least), hn::Lt(g1, low)));
     const VF f = hn::Div(g0, hn::Sub(g0, g1));
     const auto middle = [&](VF a, VF b) {
         return hn::IfThenElse(two, hn::Add(a, hn::Mul(hn::Sub(b, a), f)), b);

@@ -5,6 +5,8 @@
 #include "map_surface.h"
 #include "node_pyramid.h"
 
+#include "../../shaders/spa_cell.h"
+
 #include "../core/error.h"
 
 #include <algorithm>
@@ -50,10 +52,20 @@ std::vector<std::uint32_t> patterns(std::span<const float> values) {
 // Beyond which w rays are not followed, in units of the greatest w (docs/tracing.md, "The core").
 constexpr float uniform_core = 2, mixed_core = 64;
 
+// Rays that come from the core may pass an outer end by what rounding adds there (SPA_ROUNDING) before they
+// have left it: radius and box must not end them earlier.
+void widen(MapCells& cells, float w_core) {
+    const float margin = cells.radius * std::min(2 * SPA_ROUNDING * w_core * cells.radius, 0.5F);
+    cells.radius += margin;
+    cells.box_low = cells.box_low - Vec3f{margin, margin, margin};
+    cells.box_high = cells.box_high + Vec3f{margin, margin, margin};
+}
+
 // Gives back TraceMap::tangent_share().
 double add_cells(const Part& part, const MapSamples& samples, std::vector<std::uint32_t>& words) {
-    const MapCells cells = find_cells(part, samples);
+    MapCells cells = find_cells(part, samples);
     const float w_core = cells.w_max * (cells.uniform_core ? uniform_core : mixed_core);
+    widen(cells, w_core);
     const NodePyramid pyramid = build_pyramid(cells, w_core, samples.surfaces > 1 ? 2 : 1);
     words[SPA_HEADER_RADIUS] = bits(cells.radius);
     const std::array<float, 6> box{cells.box_low.x,  cells.box_low.y,  cells.box_low.z,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "judge.h"
 
+#include "judge_folds.h"
 #include "judge_geometry.h"
-#include "judge_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +42,8 @@ struct Judge::Span {
 
 Judge::Judge(const Part& part, std::uint32_t layers) {
     const StoredSamples samples(part, layers);
+    const bool all_layers = layers == 0 || layers >= part.layers.size();
+    const FoldTable folds(all_layers ? part.folds : std::span<const std::byte>{});
     const std::uint32_t cells = samples.cells();
     n_ = cells / 2;
     // Every triangle of every cell: which octant's, and where there.
@@ -71,76 +73,106 @@ Judge::Judge(const Part& part, std::uint32_t layers) {
         first_[b] = std::uint32_t(pieces_.size());
         for (; next < entries.size() && entries[next].bin == b; ++next) {
             const Entry& entry = entries[next];
-            std::array<Corner, 3> corners;
+            FoldTriangle corners{
+                .directions = {}, .intervals = {}, .edges = {}, .center_inside = samples.center_inside()};
             const GridTriangle triangle = grid_triangle(cells, entry.x, entry.y, entry.f);
             for (unsigned i = 0; i < 3; ++i) {
-                corners[i].direction = samples.direction(triangle.corners[i]);
-                for (const StoredInterval& s : samples.intervals(triangle.corners[i]))
-                    corners[i].intervals.push_back({s.outer, s.inner, s.outer_normal, s.inner_normal});
+                corners.directions[i] = samples.direction(triangle.corners[i]);
+                corners.intervals[i] = samples.intervals(triangle.corners[i]);
             }
-            add_triangle(corners, octant_signs(unsigned(b / (std::size_t(n_) * n_))),
-                         samples.marked_mixed(entry.x, entry.y, entry.f), samples.center_inside());
+            if (is_pure(corners, samples.marked_mixed(entry.x, entry.y, entry.f))) {
+                add_pure(corners);
+                continue;
+            }
+            if (!folds.empty()) corners.edges = folds.edges(cells, {entry.x, entry.y}, triangle);
+            add_mixed(corners, octant_signs(unsigned(b / (std::size_t(n_) * n_))), !folds.empty());
         }
     }
     first_.back() = std::uint32_t(pieces_.size());
     w_core_ = (some_solid_ && some_empty_ ? 64 : 2) * w_max_;
 }
 
-void Judge::add_triangle(const std::array<Corner, 3>& corners, Vec3d signs, bool mixed, bool center_inside) {
-    const std::size_t count = corners[0].intervals.size();
-    bool pure = !mixed;
-    for (const Corner& corner : corners) pure = pure && corner.intervals.size() == count;
-    for (std::size_t k = 0; pure && k < count; ++k)
-        for (const Corner& corner : corners)
-            pure = pure && (corner.intervals[k].inner == 0) == (corners[0].intervals[k].inner == 0);
-    if (!pure) {
-        ++mixed_triangles_;
-        for (unsigned i = 0; i < 3; ++i) add_region(corners, i, signs, center_inside);
+bool Judge::is_pure(const FoldTriangle& triangle, bool marked) {
+    const auto& first = triangle.intervals[0];
+    return !marked &&
+           std::all_of(triangle.intervals.begin(), triangle.intervals.end(), [&](const auto& other) {
+               return std::equal(first.begin(), first.end(), other.begin(), other.end(),
+                                 [](const StoredInterval& a, const StoredInterval& b) {
+                                     return (a.inner == 0) == (b.inner == 0);
+                                 });
+           });
+}
+
+void Judge::add_mixed(const FoldTriangle& triangle, Vec3d signs, bool folds) {
+    ++mixed_triangles_;
+    const auto regions = folds ? divide(triangle) : std::nullopt;
+    if (!regions.has_value()) {
+        for (unsigned i = 0; i < 3; ++i) add_region(triangle, i, signs);
         return;
     }
-    const Barycentric lambda(corners[0].direction, corners[1].direction, corners[2].direction);
-    bool to_center = false;
-    for (std::size_t k = 0; k < count; ++k) {
+    ++folded_triangles_;
+    for (const FoldRegion& region : *regions) add_folded(region);
+}
+
+void Judge::add_folded(const FoldRegion& region) {
+    for (const FoldRegion::Interval& interval : region.intervals) {
         Piece piece;
-        piece.layer = std::uint32_t(k);
+        add_ends(piece, interval.outer, interval.inner, interval.to_center, interval.layer,
+                 interval.inner_layer);
+        for (const Vec3d& corner : region.corners)
+            w_max_ = std::max({w_max_, dot(interval.outer, corner), dot(interval.inner, corner)});
+        for (std::size_t side = 0; side < region.sides.size(); ++side)
+            add_side(piece, region.sides[side], interval.open == side);
+        pieces_.push_back(piece);
+    }
+    note_core(!region.intervals.empty() && region.intervals.back().to_center);
+}
+
+void Judge::add_pure(const FoldTriangle& triangle) {
+    const auto& corners = triangle.intervals;
+    const auto& g = triangle.directions;
+    const Barycentric lambda(g[0], g[1], g[2]);
+    bool to_center = false;
+    for (std::size_t k = 0; k < corners[0].size(); ++k) {
+        Piece piece;
         Vec3d outer, inner;
         for (unsigned i = 0; i < 3; ++i) {
-            outer = outer + lambda.form[i] * corners[i].intervals[k].outer;
-            inner = inner + lambda.form[i] * corners[i].intervals[k].inner;
-            w_max_ = std::max({w_max_, corners[i].intervals[k].outer, corners[i].intervals[k].inner});
+            outer = outer + lambda.form[i] * corners[i][k].outer;
+            inner = inner + lambda.form[i] * corners[i][k].inner;
+            w_max_ = std::max({w_max_, corners[i][k].outer, corners[i][k].inner});
         }
-        to_center = corners[0].intervals[k].inner == 0;
-        add_ends(piece, outer, inner, to_center);
+        to_center = corners[0][k].inner == 0;
+        add_ends(piece, outer, inner, to_center, k, k);
         for (const Vec3d& side : lambda.form) add_side(piece, side);
         pieces_.push_back(piece);
     }
     note_core(to_center);
 }
 
-void Judge::add_region(const std::array<Corner, 3>& corners, unsigned i, Vec3d signs, bool center_inside) {
+void Judge::add_region(const FoldTriangle& triangle, unsigned i, Vec3d signs) {
+    const auto& directions = triangle.directions;
     const unsigned j = (i + 1) % 3;
     const unsigned k = (i + 2) % 3;
-    const Vec3d g = corners[i].direction;
-    const Vec3d others[2] = {corners[j].direction, corners[k].direction};
-    const Barycentric lambda(corners[0].direction, corners[1].direction, corners[2].direction);
+    const Vec3d g = directions[i];
+    const Vec3d others[2] = {directions[j], directions[k]};
+    const Barycentric lambda(directions[0], directions[1], directions[2]);
     const std::array<Vec3d, 4> region = {g, (g + others[0]) * 0.5, (g + others[1]) * 0.5,
                                          (g + others[0] + others[1]) * (1.0 / 3)};
     bool to_center = false;
-    for (std::size_t layer = 0; layer < corners[i].intervals.size(); ++layer) {
-        const Interval& interval = corners[i].intervals[layer];
+    for (std::size_t layer = 0; layer < triangle.intervals[i].size(); ++layer) {
+        const StoredInterval& interval = triangle.intervals[i][layer];
         Piece piece;
-        piece.layer = std::uint32_t(layer);
         to_center = interval.inner == 0;
         Vec3d outer, inner;
         limit_slopes(interval, g, region, signs, outer, inner);
-        add_ends(piece, outer, inner, to_center);
+        add_ends(piece, outer, inner, to_center, layer, layer);
         for (const Vec3d& corner : region)
             w_max_ = std::max({w_max_, dot(outer, corner), to_center ? 0 : dot(inner, corner)});
         add_side(piece, lambda.form[j]);
         add_side(piece, lambda.form[k]);
         for (const unsigned other : {j, k})
             add_side(piece, lambda.form[i] - lambda.form[other],
-                     center_inside && to_center && corners[other].intervals.empty());
+                     triangle.center_inside && to_center && triangle.intervals[other].empty());
         pieces_.push_back(piece);
     }
     note_core(to_center);
@@ -148,8 +180,8 @@ void Judge::add_region(const std::array<Corner, 3>& corners, unsigned i, Vec3d s
 
 // The ends' planes as linear forms: an end W(a, b) is the points with form . p = 1, since W(a, b) |p|_1 is
 // linear in p and w = 1/|p|_1. In this shape G . ((a, b) - (a_i, b_i)) is (form - W_i signs) . g.
-void Judge::limit_slopes(const Interval& interval, Vec3d g, const std::array<Vec3d, 4>& region, Vec3d signs,
-                         Vec3d& outer, Vec3d& inner) const {
+void Judge::limit_slopes(const StoredInterval& interval, Vec3d g, const std::array<Vec3d, 4>& region,
+                         Vec3d signs, Vec3d& outer, Vec3d& inner) const {
     const auto end = [&](double w, Vec3d normal) {
         const Vec3d flat = signs * w;
         const double nq = dot(normal, g) / w;
@@ -172,18 +204,27 @@ void Judge::limit_slopes(const Interval& interval, Vec3d g, const std::array<Vec
     }
 }
 
-void Judge::add_ends(Piece& piece, Vec3d outer, Vec3d inner, bool to_center) {
-    piece.halves[piece.count++] = {-outer, -1, overlap * (1 + length(outer)), trace::HitSide::outer, false};
-    if (!to_center)
-        piece.halves[piece.count++] = {inner, 1, overlap * (1 + length(inner)), trace::HitSide::inner, false};
+void Judge::add_ends(Piece& piece, Vec3d outer, Vec3d inner, bool to_center, std::size_t layer,
+                     std::size_t inner_layer) {
+    const auto add = [&](Vec3d plane, double offset, trace::HitSide side, std::size_t of) {
+        piece.halves[piece.count++] = {.plane = plane,
+                                       .offset = offset,
+                                       .slack = overlap * (1 + length(plane)),
+                                       .side = side,
+                                       .layer = std::uint32_t(of)};
+    };
+    add(-outer, -1, trace::HitSide::outer, layer);
+    if (!to_center) add(inner, 1, trace::HitSide::inner, inner_layer);
 }
 
+// A wall has the layer of the outer end.
 void Judge::add_side(Piece& piece, Vec3d plane, bool open) {
-    piece.halves[piece.count++] = {normalize(plane), 0, overlap, trace::HitSide::wall, open};
+    piece.halves[piece.count++] = {normalize(plane),     0,    overlap,
+                                   trace::HitSide::wall, open, piece.halves[0].layer};
 }
 
 void Judge::clip_piece(const Piece& piece, Vec3d o, Vec3d d, double lo, double hi, std::vector<Span>& spans) {
-    Span span{lo, hi, &piece, &piece, 6, 6}; // 6: clipped by none of its planes
+    Span span{lo, hi, &piece, &piece, none, none};
     for (unsigned k = 0; k < piece.count; ++k) {
         const HalfSpace& half = piece.halves[k];
         const double a = dot(half.plane, o) - half.offset + half.slack;
@@ -269,7 +310,7 @@ std::vector<Event> Judge::events(const RayD& ray) const {
                      .enters = enters,
                      .side = half.side,
                      .open = half.open,
-                     .layer = piece.layer,
+                     .layer = half.layer,
                      .normal = normalize(-half.plane)};
     };
     for (std::size_t i = 0; i < spans.size();) {

@@ -15,6 +15,10 @@
 
 namespace spa::test {
 
+struct FoldRegion;
+struct FoldTriangle;
+struct StoredInterval;
+
 struct RayD {
     Vec3d origin, direction; // map space; the direction of any length > 0
     double t_min = 0, t_max = 0;
@@ -59,6 +63,8 @@ public:
     [[nodiscard]] bool near_face(Vec3d point, double reach, const Event& face, bool any_layer) const;
     // Whether the point is that near to a face of the solid by which the ray enters, or leaves.
     [[nodiscard]] bool near_passage(Vec3d point, double reach, Vec3d direction, bool enters) const;
+    // Whether the point is that near to the line from the centre through a sample.
+    [[nodiscard]] bool near_sample_line(Vec3d point, double reach) const;
     // Points just inside those pieces whose boundaries pass the point at no more than `reach`, no farther
     // from it.
     [[nodiscard]] std::vector<Vec3d> points_inside(Vec3d point, double reach) const;
@@ -67,6 +73,8 @@ public:
     [[nodiscard]] double w_core() const { return w_core_; }
     [[nodiscard]] std::size_t pieces() const { return pieces_.size(); }
     [[nodiscard]] std::size_t mixed_triangles() const { return mixed_triangles_; }
+    // Of these, those that are divided by folds.
+    [[nodiscard]] std::size_t folded_triangles() const { return folded_triangles_; }
 
 private:
     // {p: plane . p >= offset}
@@ -76,28 +84,26 @@ private:
         double slack = 0; // how far rounding may move the plane, in units of plane . p
         trace::HitSide side = trace::HitSide::wall;
         bool open = false;
+        std::uint32_t layer = 0;
     };
     // One interval over a triangle or region.
     struct Piece {
-        std::array<HalfSpace, 6> halves; // outer end, inner end if there is one, sides
+        // Outer end, inner end if there is one, sides: those of a triangle and of five lines at most.
+        std::array<HalfSpace, 10> halves;
         unsigned count = 0;
-        std::uint32_t layer = 0;
-    };
-    struct Interval {
-        double outer = 0, inner = 0;      // W; inner 0: reaches the centre
-        Vec3d outer_normal, inner_normal; // zero: none
-    };
-    struct Corner {
-        Vec3d direction; // |g|_1 = 1
-        std::vector<Interval> intervals;
     };
     struct Span;
+    static constexpr unsigned none = 0xFFFFFFFFU; // of a piece's planes
 
-    void add_triangle(const std::array<Corner, 3>& corners, Vec3d signs, bool mixed, bool center_inside);
-    void add_region(const std::array<Corner, 3>& corners, unsigned i, Vec3d signs, bool center_inside);
-    void limit_slopes(const Interval& interval, Vec3d g, const std::array<Vec3d, 4>& region, Vec3d signs,
-                      Vec3d& outer, Vec3d& inner) const;
-    void add_ends(Piece& piece, Vec3d outer, Vec3d inner, bool to_center);
+    static bool is_pure(const FoldTriangle& triangle, bool marked);
+    void add_pure(const FoldTriangle& triangle);
+    void add_mixed(const FoldTriangle& triangle, Vec3d signs, bool folds);
+    void add_region(const FoldTriangle& triangle, unsigned i, Vec3d signs);
+    void add_folded(const FoldRegion& region);
+    void limit_slopes(const StoredInterval& interval, Vec3d g, const std::array<Vec3d, 4>& region,
+                      Vec3d signs, Vec3d& outer, Vec3d& inner) const;
+    void add_ends(Piece& piece, Vec3d outer, Vec3d inner, bool to_center, std::size_t layer,
+                  std::size_t inner_layer);
     static void add_side(Piece& piece, Vec3d plane, bool open = false);
     // Calls `visit` with the pieces whose triangles the point is in, or no farther than `reach` from; true:
     // one of the calls gave true.
@@ -109,6 +115,7 @@ private:
     bool any_face(Vec3d point, double reach, const Visit& visit) const;
     // How far inside a point is; below 0: outside.
     static double depth_in(const Piece& piece, Vec3d point);
+    static Vec3d moved_into(const Piece& piece, Vec3d point, unsigned but = none, double out = 0);
     void note_core(bool solid) { (solid ? some_solid_ : some_empty_) = true; }
 
     [[nodiscard]] std::size_t bin(unsigned octant, unsigned i, unsigned j) const {
@@ -122,7 +129,7 @@ private:
     std::uint32_t n_ = 0; // cells of a quadrant's side: N/2
     double w_max_ = 0, w_core_ = 0;
     bool some_solid_ = false, some_empty_ = false; // of what is below the largest W
-    std::size_t mixed_triangles_ = 0;
+    std::size_t mixed_triangles_ = 0, folded_triangles_ = 0;
     std::vector<Piece> pieces_; // of bin k: first_[k] .. first_[k + 1]
     std::vector<std::uint32_t> first_;
 };

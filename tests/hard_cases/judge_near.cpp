@@ -28,6 +28,21 @@ double Judge::depth_in(const Piece& piece, Vec3d point) {
     return depth;
 }
 
+// Just inside all planes of the piece, if it is wide enough, but beyond plane `but` by as much as `out`.
+Vec3d Judge::moved_into(const Piece& piece, Vec3d point, unsigned but, double out) {
+    constexpr double deep = 1e-8;
+    for (int i = 0; i < 20; ++i) {
+        for (unsigned k = 0; k < piece.count; ++k) {
+            const HalfSpace& half = piece.halves[k];
+            const double size = length(half.plane);
+            const double depth = (dot(half.plane, point) - half.offset) / size;
+            const double missing = k == but ? std::min(-out - depth, 0.0) : std::max(deep - depth, 0.0);
+            point = point + half.plane * (missing / size);
+        }
+    }
+    return point;
+}
+
 template <class Visit>
 bool Judge::any_near(Vec3d point, double reach, const Visit& visit) const {
     for (unsigned octant = 0; octant < 8; ++octant) {
@@ -58,12 +73,16 @@ template <class Visit>
 bool Judge::any_face(Vec3d point, double reach, const Visit& visit) const {
     return any_near(point, reach, [&](const Piece& piece) {
         if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
-        return std::any_of(piece.halves.begin(), piece.halves.begin() + piece.count,
-                           [&](const HalfSpace& half) {
-                               const double size = length(half.plane);
-                               return std::abs(dot(half.plane, point) - half.offset) <= reach * size &&
-                                      visit(half, size) && !solid(point - half.plane * (2 * reach / size));
-                           });
+        for (unsigned k = 0; k < piece.count; ++k) {
+            const HalfSpace& half = piece.halves[k];
+            const double size = length(half.plane);
+            if (std::abs(dot(half.plane, point) - half.offset) > reach * size || !visit(half, size)) continue;
+            if (!solid(point - half.plane * (2 * reach / size))) return true;
+            // What is beyond another side of the piece may hide that there is nothing beyond this one.
+            const Vec3d beyond = moved_into(piece, point, k, 2 * reach);
+            if (length(beyond - point) <= 8 * reach && !solid(beyond)) return true;
+        }
+        return false;
     });
 }
 
@@ -73,12 +92,12 @@ bool Judge::near_boundary(Vec3d point, double reach) const {
 
 bool Judge::near_face(Vec3d point, double reach, const Event& face, bool any_layer) const {
     return any_near(point, reach, [&](const Piece& piece) {
-        if (piece.layer != face.layer && !any_layer) return false;
         if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
         return std::any_of(
             piece.halves.begin(), piece.halves.begin() + piece.count, [&](const HalfSpace& half) {
                 const double size = length(half.plane);
-                return half.side == face.side && dot(half.plane, face.normal) < -(1 - 1e-4) * size &&
+                return half.side == face.side && !half.open && (half.layer == face.layer || any_layer) &&
+                       dot(half.plane, face.normal) < -(1 - 1e-4) * size &&
                        std::abs(dot(half.plane, point) - half.offset) <= reach * size;
             });
     });
@@ -92,20 +111,19 @@ bool Judge::near_passage(Vec3d point, double reach, Vec3d direction, bool enters
     });
 }
 
+bool Judge::near_sample_line(Vec3d point, double reach) const {
+    const double l = std::abs(point.x) + std::abs(point.y) + std::abs(point.z);
+    const Vec3d cells = point * (n_ / l);
+    const auto round = [](double v) { return std::round(v); };
+    const Vec3d sample = Vec3d{round(cells.x), round(cells.y), round(cells.z)} * (l / n_);
+    return length(cross(point, sample)) <= reach * length(sample);
+}
+
 std::vector<Vec3d> Judge::points_inside(Vec3d point, double reach) const {
-    constexpr double deep = 1e-8;
     std::vector<Vec3d> points;
     any_near(point, reach, [&](const Piece& piece) {
         if (!(std::abs(depth_in(piece, point)) <= reach)) return false;
-        Vec3d inside = point;
-        for (int i = 0; i < 20; ++i) {
-            for (unsigned k = 0; k < piece.count; ++k) {
-                const HalfSpace& half = piece.halves[k];
-                const double size = length(half.plane);
-                const double missing = deep - (dot(half.plane, inside) - half.offset) / size;
-                if (missing > 0) inside = inside + half.plane * (missing / size);
-            }
-        }
+        const Vec3d inside = moved_into(piece, point);
         if (length(inside - point) <= reach) points.push_back(inside);
         return false;
     });

@@ -63,7 +63,7 @@ GridTriangle grid_triangle(std::uint32_t cells, std::uint32_t x, std::uint32_t y
     const std::uint32_t near_y = low ? y : y + 1;
     const std::uint32_t far_y = low ? y + 1 : y;
     const TexelIndex own = f == 0 ? TexelIndex{near_x, near_y} : TexelIndex{far_x, far_y};
-    return {{own, TexelIndex{far_x, near_y}, TexelIndex{near_x, far_y}}};
+    return {{own, TexelIndex{near_x, far_y}, TexelIndex{far_x, near_y}}};
 }
 
 Barycentric::Barycentric(Vec3d a, Vec3d b, Vec3d c) {

@@ -38,7 +38,7 @@ private:
 };
 
 // The corners of a triangle of cell (x, y): f = 0 the one at the cell's corner nearest to the middle of the
-// map, f = 1 the other.
+// map, f = 1 the other; then the ends of the diagonal, first the one in the column of the nearest corner.
 struct GridTriangle {
     std::array<TexelIndex, 3> corners;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "maps.h"
 
+#include "fold_maps.h"
+
 #include "../../libspa/bake/bake.h"
 #include "../../samples/samples.h"
 
@@ -184,6 +186,8 @@ std::vector<NamedPart> attacked_parts() {
                                                              .mixed_share = 0.1,
                                                              .center_inside = true,
                                                              .seed = 9})});
+    for (auto* const folded : {made_fold_parts, random_fold_parts, baked_fold_parts})
+        for (NamedPart& part : folded()) parts.push_back(std::move(part));
     return parts;
 }
 

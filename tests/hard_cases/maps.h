@@ -62,7 +62,7 @@ struct NamedPart {
 };
 
 // The maps of the attack: smooth, sharp, open, layered, random; every depth code; the smallest grid, sizes
-// that are no powers of two.
+// that are no powers of two; folds of every kind (fold_maps.h).
 std::vector<NamedPart> attacked_parts();
 
 } // namespace spa::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ray_classes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -17,7 +18,7 @@ float& coordinate(Vec3f& v, std::uint32_t axis) { return axis == 0 ? v.x : axis 
 const char* name(RayClass kind) {
     constexpr std::array<const char*, ray_class_count> names{
         "center",     "sample", "axis",  "plane",   "diagonal", "octant border",
-        "map border", "corner", "chord", "tangent", "limits"};
+        "map border", "corner", "chord", "tangent", "limits",   "fold"};
     return names[std::size_t(kind)];
 }
 
@@ -102,6 +103,25 @@ trace::Ray RayMaker::tangent() {
     return through(at + along * uniform(0.5, 2), at);
 }
 
+Vec3d RayMaker::cut_point(const FoldRecord& record) {
+    const std::array<TexelIndex, 2> ends = edge_ends(samples_.cells(), record.edge);
+    const double f = fold_position(record.place);
+    const Vec3d g =
+        samples_.direction(ends[record.end]) * (1 - f) + samples_.direction(ends[1U - record.end]) * f;
+    return normalize(g) * (record.cut[record.pair ? below(2) : 0] / 65535.0);
+}
+
+trace::Ray RayMaker::fold() {
+    if (folds_.empty()) return make(RayClass::chord);
+    const std::uint32_t i = below(std::uint32_t(folds_.size()));
+    const Vec3d at = cut_point(folds_[i]);
+    if (chance(0.7)) return through(outside(), at);
+    // Of the records next to it one is often of the same triangle.
+    const Vec3d other = cut_point(folds_[std::min<std::size_t>(i + 1, folds_.size() - 1)]);
+    if (length(cross(at, other)) < 1e-9) return through(outside(), at);
+    return in_plane(normalize(at), normalize(other));
+}
+
 trace::Ray RayMaker::make(RayClass kind) {
     const std::uint32_t n = samples_.cells();
     const std::uint32_t middle = n / 2;
@@ -177,6 +197,7 @@ trace::Ray RayMaker::make(RayClass kind) {
         if (chance(0.5)) ray.t_max = ray.t_min + float(uniform(0, 2) * size);
         return ray;
     }
+    case RayClass::fold: return fold();
     }
     return {};
 }

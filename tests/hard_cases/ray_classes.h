@@ -4,10 +4,12 @@
 
 #include "judge_samples.h"
 
+#include "../../libspa/core/folds.h"
 #include "../../libspa/trace/ray.h"
 
 #include <cstdint>
 #include <random>
+#include <vector>
 
 namespace spa::test {
 
@@ -23,13 +25,15 @@ enum class RayClass : unsigned {
     chord,         // from anywhere to anywhere
     tangent,       // touching the sphere, or the surface at a sample
     limits,        // with limits of t that cut the solid, and origins within it
+    fold,          // through a point where a fold record ends a surface, or in the plane of two; else a chord
 };
-constexpr unsigned ray_class_count = 11;
+constexpr unsigned ray_class_count = 12;
 const char* name(RayClass kind);
 
 class RayMaker {
 public:
-    RayMaker(const Part& part, std::uint64_t seed) : samples_(part, 0), random_(seed) {}
+    RayMaker(const Part& part, std::uint64_t seed)
+        : samples_(part, 0), folds_(decode_folds(part.folds)), random_(seed) {}
 
     // The direction's length is between 1e-6 and 1e6.
     trace::Ray make(RayClass kind);
@@ -55,8 +59,12 @@ private:
     trace::Ray in_plane(Vec3d a, Vec3d b);
     trace::Ray diagonal();
     trace::Ray tangent();
+    // Where a record ends a surface.
+    Vec3d cut_point(const FoldRecord& record);
+    trace::Ray fold();
 
     StoredSamples samples_;
+    std::vector<FoldRecord> folds_;
     std::mt19937_64 random_;
 };
 

@@ -9,7 +9,8 @@
 namespace spa::test {
 namespace {
 
-constexpr double step = 1e-5; // how far rays are moved, in units of R
+constexpr double step = 1e-5;    // how far rays are moved, in units of R
+constexpr double grazing = 0.01; // sine of the angle between a ray and a plane that it all but runs in
 
 bool valid(const trace::Ray& ray, const trace::Hit& hit) {
     if (!hit.valid()) return hit.t == std::numeric_limits<float>::infinity();
@@ -128,6 +129,14 @@ public:
             });
         });
     }
+    // Whether one of the rays goes through an open wall at t.
+    [[nodiscard]] bool some_open(double t, bool front, double bound) const {
+        return std::any_of(answers_.begin(), answers_.end(), [&](const Answer& answer) {
+            return std::any_of(answer.events.begin(), answer.events.end(), [&](const Event& event) {
+                return event.open && event.enters == front && std::abs(event.t - t) * speed_ <= bound;
+            });
+        });
+    }
     [[nodiscard]] bool open_walls() const {
         return std::any_of(answers_.begin(), answers_.end(), [](const Answer& answer) {
             return std::any_of(answer.events.begin(), answer.events.end(),
@@ -150,7 +159,7 @@ private:
     struct Answer {
         std::vector<Event> events;
         std::optional<Event> first;
-        bool filled = false; // without thin gaps
+        bool filled = false; // without thin gaps, or without tips
     };
 
     void add(const RayD& ray) {
@@ -158,6 +167,21 @@ private:
         answers_.push_back({events, Judge::first(events, ray, flags_), false});
         const std::vector<Event> filled = judge_.without_thin_gaps(events, ray, step);
         answers_.push_back({filled, Judge::first(filled, ray, flags_), true});
+        const std::vector<Event> thick = without_tips(events);
+        if (thick.size() != events.size())
+            answers_.push_back({thick, Judge::first(thick, ray, flags_), true});
+    }
+
+    // The events, but for solid less than a step long that a wall bounds.
+    [[nodiscard]] std::vector<Event> without_tips(const std::vector<Event>& events) const {
+        std::vector<Event> left;
+        for (std::size_t i = 0; i + 1 < events.size(); i += 2) {
+            const bool wall =
+                events[i].side == trace::HitSide::wall || events[i + 1].side == trace::HitSide::wall;
+            if (wall && (events[i + 1].t - events[i].t) * speed_ < step) continue;
+            left.insert(left.end(), {events[i], events[i + 1]});
+        }
+        return left;
     }
 
     const Judge& judge_;
@@ -212,14 +236,19 @@ Judgement judge_once(const Judge& judge, const trace::Ray& ray, std::uint32_t fl
     // A ray that grazes a face meets it anywhere along it.
     const bool on_face = judge.near_passage(point, bound, exact.direction, hit.front);
     double arrived = t;
-    const bool is_there = near.some_hit(t, hit.front, bound, arrived) || on_face ||
+    // Along a ray that all but runs in the plane the place is uncertain by this much more.
+    const double slant = std::abs(dot(to_double(hit.normal), exact.direction)) / speed;
+    const double wide = slant < grazing ? bound * std::min(1 / slant, 100.0) : bound;
+    const bool at_open = hit.side == trace::HitSide::wall && near.some_open(t, hit.front, bound);
+    const bool is_there = near.some_hit(t, hit.front, wide, arrived) || on_face || at_open ||
                           (near.between(t) && judge.near_boundary(point, bound));
     const bool nothing_before =
         near.some_free_before(t, bound) || !near.blocked_before(arrived - 5 * bound / speed);
     const bool in_core = near.in_core(t, bound);
     if (!is_there || !nothing_before)
         judgement.verdict = truth.has_value() ? Verdict::wrong_time : Verdict::invented;
-    else if (!in_core && !judge.near_face(point, bound, face, leaves_wall(hit)))
+    else if (!in_core && !judge.near_face(point, std::min(wide, 4 * bound), face, leaves_wall(hit)) &&
+             !(leaves_wall(hit) && judge.near_sample_line(point, bound)))
         judgement.verdict = Verdict::wrong_record;
     else
         judgement.verdict = Verdict::excused;

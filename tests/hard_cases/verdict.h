@@ -13,6 +13,15 @@
 //   If those rays meet the solid differently often, or first something else, the ray runs within 1e-5 R of
 //   edges all along, and rounding may take it to one side here and to the other there: a hit on the boundary
 //   is "bent", and so is a miss where hits are culled or walls open.
+//   Solid that is less than 1e-5 R long on a ray and ends at a wall is the tip of a wedge: a ray in the plane
+//   of a triangle's side has only its edge, of no length, on the one side of that plane, so any of those rays
+//   may pass it by. (With folds walls end in tips where lines come to a sample or an edge of a triangle;
+//   intervals of no thickness have no wall and are hit.) Through the line of a sample, where up to eight
+//   triangles meet, what is left may be a wall at the edge of any of them, and so may its normal.
+//   The bound of a hit on a plane that the ray meets at a sine below 0.01 is divided by it, and an edge up to
+//   four bounds away may have been passed: that far along the ray its distance from the plane is rounding.
+//   Where the line of an open wall comes to the border of a triangle the ray may go by the border, a closed
+//   wall, if the border is there.
 // Rays that pass the centre at less than the largest W's distance, where the core is 64 times smaller than
 // that, lose digits: their bound grows by 4 eps W_core R, and it is enough that their hits are on the
 // boundary. Whatever is excused is counted, hits on the other face of an edge apart from the rest.
