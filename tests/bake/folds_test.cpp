@@ -85,6 +85,19 @@ TEST(EdgePaths, APairThatMeetsComesBack) {
     }
 }
 
+// Two thirds of the way from where they meet to the tangent plane, which here keeps W.
+TEST(EdgePaths, CutsAreBetweenTheFoldAndTheTangentPlane) {
+    const auto points = edge_points({{1, 1.2}, {1, 1.1}, {1, 1.01}, {}, {}});
+    const EdgeFolds folds = fold_records(7, points, EdgePaths(points, edge_length), {2, 0});
+    ASSERT_EQ(folds.records.size(), 1U);
+    const FoldRecord& record = folds.records[0];
+    EXPECT_TRUE(record.pair);
+    EXPECT_DOUBLE_EQ(fold_position(record.place), 0.625);
+    const Vec3d g = points[0].direction * 0.375 + points[4].direction * 0.625;
+    EXPECT_NEAR(length(g) * 65535 / record.cut[0], 1.005 - 2.0 / 3 * 0.005, 1e-4);
+    EXPECT_NEAR(length(g) * 65535 / record.cut[1], 1.005 + 2.0 / 3 * 0.195, 1e-4);
+}
+
 TEST(EdgePaths, ASurfaceThatFoldsTwiceGoesOn) {
     // What is the first crossing at one end is the last at the other: in between it turns twice.
     const auto points =
