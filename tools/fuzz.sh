@@ -40,7 +40,7 @@ found() {
         -o -name "$target-leak-*" \) | sort
 }
 before=$(found)
-export UBSAN_OPTIONS=print_stacktrace=1
+export UBSAN_OPTIONS=print_stacktrace=1 LSAN_OPTIONS="suppressions=$PWD/tests/fuzz/leaks.supp:print_suppressions=0"
 # Of an option that is given twice the last counts.
 eval "nice -n 19 $command" -fork=1 -ignore_crashes=1 -ignore_timeouts=1 -ignore_ooms=1 \
     -max_total_time="$seconds" '"$@"' || true
