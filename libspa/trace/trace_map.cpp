@@ -27,6 +27,14 @@ void check_size(const Part& part) {
                         " samples is too large to trace; bake it with at most 16384 cells a side");
 }
 
+// A prism has ten bits for each of its layers.
+void check_layers(const MapSamples& samples) {
+    if (samples.layers() > SPA_MAX_LAYERS)
+        throw Error(ExitCode::unsupported, "a map of " + std::to_string(samples.layers()) +
+                                               " layers has too many to trace; bake it with at most " +
+                                               std::to_string(SPA_MAX_LAYERS));
+}
+
 void check_length(std::size_t words) {
     if (words > UINT32_MAX)
         throw Error(ExitCode::unsupported,
@@ -97,6 +105,7 @@ TraceMap::TraceMap(const Part& part, const CompileOptions& options) {
     check_size(part);
     const ImageView& depth = part.layers.front().outer.depth;
     const MapSamples samples = read_samples(part, options.layers);
+    check_layers(samples);
     std::vector<std::uint32_t>& words = words_;
     words.assign(SPA_HEADER_WORDS, 0);
     words[SPA_HEADER_MAGIC] = SPA_MAGIC;

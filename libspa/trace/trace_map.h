@@ -23,7 +23,7 @@ struct CompileOptions {
 class TraceMap {
 public:
     // O(samples). part: as a reader that has checked it gives it, or a bake. Throws Error{unsupported} for a
-    // map with more than 2^14 cells a side, or whose image would have 2^32 words.
+    // map with more than 2^14 cells a side or 1024 layers, or whose image would have 2^32 words.
     explicit TraceMap(const Part& part, const CompileOptions& options = {});
 
     // The trace image; position independent.

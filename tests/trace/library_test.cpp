@@ -3,6 +3,7 @@
 #include "function_map.h"
 #include "random.h"
 
+#include "../../libspa/core/error.h"
 #include "../../libspa/trace/fan.h"
 #include "../../libspa/trace/march.h"
 #include "../../libspa/trace/shade.h"
@@ -145,6 +146,19 @@ TEST(TraceLibrary, NormalsBesideAHoleAreThoseOfTheSurface) {
         EXPECT_GT(stored, 1000);
         EXPECT_LT(stored, 5000);
     }
+}
+
+// A prism names its layers with ten bits each.
+TEST(TraceLibrary, MapsOfTooManyLayersAreRefused) {
+    const std::vector<std::byte> depths(9, std::byte{0});
+    Layer layer;
+    layer.outer.depth = layer.inner.depth = {depths, 3, 3, ElementFormat::u8};
+    Part part;
+    part.layers.assign(1025, layer);
+    EXPECT_THROW(TraceMap(part, {0, false}), Error);
+    EXPECT_NO_THROW(TraceMap(part, {1024, false}));
+    part.layers.resize(1024);
+    EXPECT_NO_THROW(TraceMap(part, {0, false}));
 }
 
 } // namespace
