@@ -22,6 +22,9 @@ constexpr std::size_t name_width = 10;
 constexpr std::size_t text_width = 108;
 
 // Of 100.
+// The bar is at 0.005 %, and the column narrow.
+std::string interior_text(double share) { return fixed(100 * share, share < 0.1 ? 4 : 3); }
+
 std::string share_text(double share) { return share == 0 ? "0" : significant(100 * share, 3); }
 std::string distance_text(double distance) { return significant(distance, 2); }
 std::string kibibytes(double bytes) {
@@ -55,8 +58,8 @@ std::string line_of(const LayerFigures& row) {
         std::to_string(row.cells),
         share_text(row.false_hits),
         share_text(row.missed_hits),
-        fixed(100 * row.interior_false, 4),
-        fixed(100 * row.interior_missed, 4),
+        interior_text(row.interior_false),
+        interior_text(row.interior_missed),
         distance_text(row.distance_mean),
         distance_text(row.distance_p95),
         distance_text(row.distance_p99),

@@ -325,7 +325,6 @@ private:
                 crossings[i].push_back(double(w_of(s, order[i])));
         double begins = 0;
         if (!folds_->triangle(cell.x, cell.y, t.beyond, crossings, prisms_, begins)) return false;
-        // Half-planes come before the prisms that refer to them: prisms stand one behind the other.
         core = std::max(core, float(begins));
         for (const FoldPrism& prism : prisms_) {
             Range range{far_w, 0};
@@ -348,6 +347,7 @@ private:
             result_.places.push_back(std::uint32_t(result_.lists.size()));
             result_.lists.push_back(0);
         }
+        // Prisms stand one behind the other; their half-planes come after all of them.
         const std::size_t first = result_.lists.size() - prisms_.size() * SPA_PRISM_WORDS;
         for (std::size_t n = 0; n < prisms_.size(); ++n) {
             result_.lists[first + n * SPA_PRISM_WORDS + 7] = std::uint32_t(result_.lists.size());

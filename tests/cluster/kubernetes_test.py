@@ -87,13 +87,13 @@ def main(spa, manifest):
         statuses = [run.wait() for run in runs]
         assert not any(statuses), f"exit statuses {statuses}"
 
-        maps, whole = places["/work"] / "maps", folder / "whole"
+        maps, whole = places["/data"] / "maps", folder / "whole"
         subprocess.run([spa, "batch", assets, "-o", whole, "--size", "32", "--quiet"], check=True)
         differing = sorted(map(str, files(maps) ^ files(whole)))
         assert not differing, f"baked by the pods alone or by one run alone: {', '.join(differing)}"
         for name in sorted(files(whole)):
             assert filecmp.cmp(maps / name, whole / name, shallow=False), f"{name}: not the bytes of one run"
-        return check_reports.main(assets, sorted(places["/work"].glob("*.json")))
+        return check_reports.main(assets, sorted(places["/data"].glob("*.json")))
 
 
 if __name__ == "__main__":
