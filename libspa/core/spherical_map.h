@@ -7,6 +7,7 @@
 // unit vectors that point out of the solid; object space wants them by the inverse transpose of `frame`.
 #pragma once
 
+#include "affine.h"
 #include "direction_map.h"
 #include "element_format.h"
 
@@ -83,8 +84,11 @@ struct Part {
     double radius = 1; // of the bounding sphere, in frame units, > 0
     Mat3 frame;        // frame space -> object space, without the translation; invertible
     Mapping mapping = Mapping::octahedral;
-    std::int32_t node = -1;  // index of the source node that the part follows; -1 = the whole object
-    std::int32_t joint = -1; // index of the skin joint that the part follows; -1 = none
+    std::int32_t node = -1;  // index of the source's node that the part follows; -1 = the whole object
+    std::int32_t joint = -1; // that node's index among the joints of its skin; -1 = it is no joint
+    // From object space to the local space of `node`, in the pose that was baked: where the node stands at T
+    // the part stands at T * to_node. Of a joint: its inverse bind matrix. Invertible.
+    Affine to_node{};
     // The centre lies in the solid: surface bounds the solid around it in every direction that has one, and a
     // direction without surface is an opening of the mesh (the open leg of a boot), not a silhouette. false:
     // it lies outside, or it is not known.

@@ -10,6 +10,7 @@
 
 #include "../core/affine.h"
 #include "model.h"
+#include "rig.h"
 
 #include <cmath>
 #include <cstdint>
@@ -23,6 +24,8 @@ struct SceneNode {
     std::string name;
     std::uint32_t parent = no_index; // index into Scene::nodes; no_index: a root
     Affine to_world;                 // from the node's local space; may be mirrored, sheared and singular
+    Affine to_parent{};              // the same to its parent's space, or to the world where it has none
+    std::uint32_t source = no_index; // its index in the file (glTF: nodes); instances have their node's
 };
 
 // A pinhole camera at the origin of its space: looks along -Z, +Y is up in the image, +X right. A ray through
@@ -57,6 +60,7 @@ struct Scene {
     std::vector<SceneNode> nodes;              // each parent before its children
     std::vector<Camera> cameras;
     std::vector<Light> lights;
+    Rig rig{}; // empty unless it was asked for
 };
 
 // How much of a spot light's intensity goes in a direction at the cosine `cosine` from its axis, as
