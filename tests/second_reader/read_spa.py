@@ -432,6 +432,10 @@ def lines(data):
                             q = tuple(values[0] * part.radius * c for c in u)
                             values = values + u + to_object_space(part, q)
                         yield " ".join(map(number, values))
+        if (index, 0, 0, b"BIND") in images:
+            bind = struct.unpack("<12d", images[index, 0, 0, b"BIND"][1])
+            require(all(abs(v) <= 2.0**60 for v in bind), 310)
+            yield f"bind {index} " + " ".join(map(number, bind))
         yield from mixed_triangles(part, images, index)
         yield from fold_records(part, images, index)
 
