@@ -21,7 +21,10 @@ Turn turn_of(double degrees) {
     return {std::cos(angle), std::sin(angle)};
 }
 
-std::uint32_t size_of(const std::vector<Vec3f>& values) { return static_cast<std::uint32_t>(values.size()); }
+template <class T>
+std::uint32_t size_of(const std::vector<T>& values) {
+    return static_cast<std::uint32_t>(values.size());
+}
 
 } // namespace
 
@@ -43,8 +46,10 @@ Mat3 turn_z(double degrees) {
 std::uint32_t SceneBuilder::add(const std::string& name, const Affine& to_world, const Model& mesh,
                                 std::uint32_t parent) {
     Model& model = scene_.model;
-    const auto node = static_cast<std::uint32_t>(scene_.nodes.size());
-    scene_.nodes.push_back({name, parent, to_world});
+    const std::uint32_t node = size_of(scene_.nodes);
+    Affine to_parent = to_world;
+    if (parent != no_index) to_parent = inverse(scene_.nodes[parent].to_world) * to_world;
+    scene_.nodes.push_back({name, parent, to_world, to_parent, node});
 
     const auto first_texture = static_cast<std::uint32_t>(model.textures.size());
     model.textures.insert(model.textures.end(), mesh.textures.begin(), mesh.textures.end());
@@ -81,8 +86,9 @@ std::uint32_t SceneBuilder::add(const std::string& name, const Affine& to_world,
 }
 
 std::uint32_t SceneBuilder::add_group(const std::string& name) {
-    scene_.nodes.push_back({name, no_index, {}});
-    return static_cast<std::uint32_t>(scene_.nodes.size() - 1);
+    const std::uint32_t node = size_of(scene_.nodes);
+    scene_.nodes.push_back({name, no_index, {}, {}, node});
+    return node;
 }
 
 void SceneBuilder::add_boot(int level, const Mat3& turn, Vec3d place) {
@@ -99,7 +105,7 @@ void SceneBuilder::add_camera(const std::string& name, Vec3d eye, Vec3d target, 
     camera.name = name;
     camera.to_world = {transpose({{right, cross(back, right), back}}), eye};
     camera.vertical_fov = vertical_degrees * std::numbers::pi / 180;
-    scene_.nodes.push_back({name, no_index, camera.to_world});
+    scene_.nodes.push_back({name, no_index, camera.to_world, camera.to_world, size_of(scene_.nodes)});
     scene_.cameras.push_back(std::move(camera));
 }
 
@@ -108,7 +114,7 @@ void SceneBuilder::add_point_light(const std::string& name, Vec3d position, floa
     light.name = name;
     light.position = position;
     light.intensity = {watts_per_steradian, watts_per_steradian, watts_per_steradian};
-    scene_.nodes.push_back({name, no_index, {{}, position}});
+    scene_.nodes.push_back({name, no_index, {{}, position}, {{}, position}, size_of(scene_.nodes)});
     scene_.lights.push_back(std::move(light));
 }
 

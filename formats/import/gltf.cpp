@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // read_gltf: 1. split the container, 2. check the document, 3. read the buffers, 4. let tinygltf build its
 // model of the rest, 5. flatten the scene, 6. append every primitive of every instance. read_gltf_scene reads
-// the cameras and lights after 2 and adds them and the nodes after 6.
+// the cameras and lights after 2 and adds them and the nodes after 6; a rig grows with 6, its animations are
+// read at the end.
 //
 // tinygltf gets the document without buffers, images and what we read ourselves or have no use for: their
 // bytes stay where they were read to, nothing is copied, and no reference is opened but by Buffers and
 // Images.
+#include "gltf_animation.h"
 #include "gltf_check.h"
 #include "gltf_check_values.h"
 #include "gltf_container.h"
@@ -78,8 +80,14 @@ tinygltf::Model build_model(Json& document, const Context& context) {
 constexpr std::uint64_t max_primitives = std::uint64_t{1} << 22U;
 constexpr std::uint64_t max_reads_per_vertex = 16; // of the limit of vertices
 
+std::uint64_t bytes_of(const Size& size, bool rig) {
+    std::uint64_t bytes = size.vertices * vertex_bytes + size.triangles * triangle_bytes;
+    if (rig) bytes += size.vertices * rig_vertex_bytes + size.influences * influence_bytes;
+    return bytes;
+}
+
 // Holds the flattened scene against the limits before anything is allocated for it.
-Size total_size(const tinygltf::Model& model, const std::vector<Instance>& instances,
+Size total_size(const tinygltf::Model& model, const std::vector<Instance>& instances, bool rig,
                 const Context& context) {
     Size total;
     std::uint64_t primitives = 0;
@@ -96,14 +104,17 @@ Size total_size(const tinygltf::Model& model, const std::vector<Instance>& insta
                 fail(context, "", "the scene reads morph targets or sparse accessors too often");
             total.vertices += size.vertices;
             total.triangles += size.triangles;
+            total.influences += size.influences;
             if (total.vertices > context.limits.vertices)
                 fail(context, "",
                      "the scene has more vertices than the limit of " +
                          std::to_string(context.limits.vertices));
-            if (total.vertices * vertex_bytes + total.triangles * triangle_bytes > context.limits.model_bytes)
+            if (bytes_of(total, rig) > context.limits.model_bytes)
                 fail(context, "",
                      "the scene makes a model larger than the limit of " +
                          std::to_string(context.limits.model_bytes) + " bytes");
+            if (rig && total.influences > no_index)
+                fail(context, "", "the scene has more weights of joints than can be numbered");
             if (total.triangles > context.limits.triangles)
                 fail(context, "",
                      "the scene has more triangles than the limit of " +
@@ -131,15 +142,17 @@ std::string nothing_to_bake(const tinygltf::Model& model, const std::vector<Inst
 struct Target {
     Model& model;
     Scene* scene = nullptr;
+    bool rig = false;
 };
 
-void assemble(const tinygltf::Model& model, Buffers& buffers, Images& images, const Context& context,
-              const Target& target, const SceneParts& parts) {
+// `document`: the animations.
+void assemble(const Json& document, const tinygltf::Model& model, Buffers& buffers, Images& images,
+              const Context& context, const Target& target, const SceneParts& parts) {
     Model& out = target.model;
     std::vector<Place> places;
     const std::vector<Instance> instances =
         flatten_scene(model, buffers, context, target.scene != nullptr ? &places : nullptr);
-    const Size total = total_size(model, instances, context);
+    const Size total = total_size(model, instances, target.rig, context);
     std::vector<bool> used(model.materials.size());
     bool any_colors = false;
     for (const Instance& instance : instances)
@@ -149,7 +162,8 @@ void assemble(const tinygltf::Model& model, Buffers& buffers, Images& images, co
             if (primitive.material >= 0) used[static_cast<std::size_t>(primitive.material)] = true;
             any_colors = any_colors || primitive.attributes.count("COLOR_0") != 0;
         }
-    images.reserve(total.vertices * vertex_bytes + total.triangles * triangle_bytes);
+    const std::uint64_t mesh_bytes = bytes_of(total, target.rig);
+    images.reserve(mesh_bytes);
     Materials materials(model, used, images, out, context);
     out.positions.reserve(total.vertices);
     out.normals.reserve(total.vertices);
@@ -158,7 +172,16 @@ void assemble(const tinygltf::Model& model, Buffers& buffers, Images& images, co
     if (!out.textures.empty()) out.uvs.reserve(total.vertices);
     if (any_colors) out.colors.reserve(total.vertices);
 
-    Assembly assembly{model, buffers, materials, out, context, global_transforms(model), {}, {}};
+    std::optional<RigBuilder> rig;
+    if (target.rig) {
+        rig.emplace(model, buffers, target.scene->rig, context);
+        target.scene->rig.positions.reserve(total.vertices);
+        target.scene->rig.normals.reserve(total.vertices);
+        target.scene->rig.first.reserve(total.vertices + 1);
+        target.scene->rig.influences.reserve(total.influences);
+    }
+    Assembly assembly{
+        model, buffers, materials, out, context, global_transforms(model), {}, {}, rig ? &*rig : nullptr};
     for (const Instance& instance : instances) {
         const tinygltf::Mesh& mesh = model.meshes[static_cast<std::size_t>(model.nodes[instance.node].mesh)];
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
@@ -179,6 +202,11 @@ void assemble(const tinygltf::Model& model, Buffers& buffers, Images& images, co
     if (!out.uvs.empty()) out.uvs.resize(out.positions.size());
     if (!out.colors.empty()) out.colors.resize(out.positions.size(), {1, 1, 1, 1});
     if (out.materials.empty()) (void)materials.default_material();
+    if (rig) {
+        rig->finish(places);
+        target.scene->rig.animations = read_animations(document, model, places, buffers,
+                                                       context.limits.model_bytes - mesh_bytes, context);
+    }
     if (target.scene != nullptr) fill_scene(model, places, parts, *target.scene, context);
 }
 
@@ -194,7 +222,7 @@ void read(const Context& context, const Target& target) {
     const tinygltf::Model model = build_model(document, context);
     std::optional<Error> error;
     try {
-        assemble(model, buffers, images, context, target, parts);
+        assemble(document, model, buffers, images, context, target, parts);
     } catch (const Error& caught) {
         error = caught;
     }
@@ -232,10 +260,11 @@ Result read_gltf(const Asset& asset, const Limits& limits) {
     return result;
 }
 
-SceneResult read_gltf_scene(const Asset& asset, const Limits& limits) {
+SceneResult read_gltf_scene(const Asset& asset, const Limits& limits, const SceneOptions& options) {
     SceneResult result;
     References references(asset, limits, result.report);
-    gltf::read_with_causes({asset, limits, result.report, references}, {result.scene.model, &result.scene});
+    gltf::read_with_causes({asset, limits, result.report, references},
+                           {result.scene.model, &result.scene, options.rig});
     return result;
 }
 

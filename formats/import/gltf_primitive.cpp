@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace spa::import::gltf {
 namespace {
 
 constexpr const char* draco_extension = "KHR_draco_mesh_compression";
+constexpr const char* joints_attribute = ".attributes.JOINTS_0";
 
 // One primitive's attributes, wherever they are kept, for the vertices in `subset` (empty: all).
 class Attributes {
@@ -160,15 +162,13 @@ void normalize_in_place(std::span<Vec3f> normals) {
 }
 
 // Places the vertices; `mirrored[v]` where the surface there is turned inside out.
-void pose(Drawing& drawing, const Attributes& attributes, bool has_normals,
+void pose(Drawing& drawing, const std::optional<VertexWeights>& weights, bool has_normals,
           std::vector<std::uint8_t>& mirrored) {
-    const std::optional<VertexWeights> weights = read_weights(drawing, attributes);
     const std::span<Vec3f> positions = drawing.positions();
     const std::span<Vec3f> normals = has_normals ? drawing.normals() : std::span<Vec3f>{};
     if (weights) {
         const std::span<const Affine> joints = joints_of(drawing);
-        check_weights(*weights, joints.size(), drawing.where + ".attributes.JOINTS_0",
-                      drawing.assembly.context);
+        check_weights(*weights, joints.size(), drawing.where + joints_attribute, drawing.assembly.context);
         mirrored.resize(positions.size());
         for (std::size_t v = 0; v < positions.size(); ++v) {
             const Affine map = weights->blend(v, joints, drawing.instance.world);
@@ -270,6 +270,9 @@ Size size_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive)
     for (const auto& [name, index] : primitive.attributes)
         if (model.accessors[static_cast<std::size_t>(index)].sparse.isSparse) size.reads += vertices;
     size.vertices = flat ? 3 * size.triangles : std::min(vertices, 3 * size.triangles);
+    std::uint64_t sets = 0;
+    while (primitive.attributes.count("JOINTS_" + std::to_string(sets)) != 0) ++sets;
+    size.influences = size.vertices * std::max<std::uint64_t>(4 * sets, 1);
     return size;
 }
 
@@ -316,8 +319,13 @@ void append_primitive(Assembly& assembly, const Instance& instance, std::size_t 
         add_morph_targets(assembly.model, primitive, weights, "NORMAL", assembly.buffers, attributes.subset,
                           drawing.normals(), assembly.context);
     }
+    Unposed unposed{{}, {}, read_weights(drawing, attributes)};
+    if (assembly.rig != nullptr) {
+        unposed.positions.assign(drawing.positions().begin(), drawing.positions().end());
+        if (has_normals) unposed.normals.assign(drawing.normals().begin(), drawing.normals().end());
+    }
     std::vector<std::uint8_t> mirrored; // empty: none; one element: all or none; else one a vertex
-    pose(drawing, attributes, has_normals, mirrored);
+    pose(drawing, unposed.weights, has_normals, mirrored);
 
     std::uint32_t material = primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material)
                                                      : assembly.materials.default_material();
@@ -330,16 +338,23 @@ void append_primitive(Assembly& assembly, const Instance& instance, std::size_t 
         if (mirrored.size() <= 1) return !mirrored.empty();
         return mirrored[triangle.vertex[0]] != 0;
     });
+    std::vector<std::uint32_t> from, computed;
     if (has_normals) {
-        drop_unused_vertices(out, drawing.base, drawing.first);
-        const std::size_t repaired = repair_normals(out, drawing.base, drawing.first);
-        if (repaired != 0)
+        from = drop_unused_vertices(out, drawing.base, drawing.first);
+        computed = repair_normals(out, drawing.base, drawing.first);
+        if (!computed.empty())
             warn(assembly.context, drawing.where + ".attributes.NORMAL",
-                 std::to_string(repaired) + " normals have no direction and are computed");
+                 std::to_string(computed.size()) + " normals have no direction and are computed");
     } else {
-        make_flat(out, drawing.base, drawing.first);
+        from = make_flat(out, drawing.base, drawing.first);
         report.computed_normals = true;
+        computed.resize(assembly.rig != nullptr ? from.size() : 0);
+        std::iota(computed.begin(), computed.end(), static_cast<std::uint32_t>(drawing.base));
     }
+    if (assembly.rig != nullptr)
+        assembly.rig->append(instance, unposed,
+                             unposed.weights ? joints_of(drawing) : std::span<const Affine>{},
+                             {out, drawing.base, from, computed}, drawing.where + joints_attribute);
     out.triangle_materials.resize(out.triangles.size(), material);
 }
 

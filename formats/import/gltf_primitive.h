@@ -4,7 +4,7 @@
 
 #include "gltf_draco.h"
 #include "gltf_material.h"
-#include "gltf_skin.h"
+#include "gltf_rig.h"
 
 #include <map>
 #include <optional>
@@ -22,6 +22,7 @@ struct Assembly {
     std::vector<Affine> globals;              // of the nodes
     std::map<int, std::vector<Affine>> skins; // joint matrices, by skin, when first used
     std::map<std::pair<std::size_t, std::size_t>, DracoMesh> draco; // by mesh and primitive
+    RigBuilder* rig = nullptr;                                      // null: no rig is wanted
 };
 
 // Points and lines: not drawn.
@@ -31,6 +32,7 @@ bool is_drawn(const tinygltf::Primitive& primitive);
 // are read in full. The limits are held against it.
 struct Size {
     std::uint64_t vertices = 0, triangles = 0, reads = 0;
+    std::uint64_t influences = 0; // of bones on vertices
 };
 Size size_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive);
 

@@ -9,25 +9,6 @@
 namespace spa::import::gltf {
 namespace {
 
-struct Quaternion {
-    double x = 0, y = 0, z = 0, w = 1;
-};
-
-Affine from_trs(Vec3d t, Quaternion q, Vec3d s) {
-    const double norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-    const double k = norm > 0 ? 2.0 / norm : 0.0; // any length, so normalised here
-    Affine map;
-    map.linear.row[0] = {1 - k * (q.y * q.y + q.z * q.z), k * (q.x * q.y - q.z * q.w),
-                         k * (q.x * q.z + q.y * q.w)};
-    map.linear.row[1] = {k * (q.x * q.y + q.z * q.w), 1 - k * (q.x * q.x + q.z * q.z),
-                         k * (q.y * q.z - q.x * q.w)};
-    map.linear.row[2] = {k * (q.x * q.z - q.y * q.w), k * (q.y * q.z + q.x * q.w),
-                         1 - k * (q.x * q.x + q.y * q.y)};
-    for (Vec3d& row : map.linear.row) row = {row.x * s.x, row.y * s.y, row.z * s.z};
-    map.translation = t;
-    return map;
-}
-
 Affine local_transform(const tinygltf::Node& node) {
     if (node.matrix.size() == 16) { // column-major
         const std::vector<double>& m = node.matrix;
@@ -36,13 +17,8 @@ Affine local_transform(const tinygltf::Node& node) {
         map.translation = {m[12], m[13], m[14]};
         return map;
     }
-    Vec3d t{}, s{1, 1, 1};
-    Quaternion q;
-    if (node.translation.size() == 3) t = {node.translation[0], node.translation[1], node.translation[2]};
-    if (node.rotation.size() == 4)
-        q = {node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]};
-    if (node.scale.size() == 3) s = {node.scale[0], node.scale[1], node.scale[2]};
-    return from_trs(t, q, s);
+    const LocalParts parts = local_parts(node);
+    return from_trs(parts.translation, parts.rotation, parts.scale);
 }
 
 [[noreturn]] void refuse_drawings(const Context& context) {
@@ -118,11 +94,21 @@ std::vector<std::size_t> roots_of(const tinygltf::Model& model) {
 
 } // namespace
 
+LocalParts local_parts(const tinygltf::Node& node) {
+    LocalParts parts;
+    const std::vector<double>&t = node.translation, &q = node.rotation, &s = node.scale;
+    if (t.size() == 3) parts.translation = {t[0], t[1], t[2]};
+    if (q.size() == 4) parts.rotation = {q[0], q[1], q[2], q[3]};
+    if (s.size() == 3) parts.scale = {s[0], s[1], s[2]};
+    return parts;
+}
+
 std::vector<Instance> flatten_scene(const tinygltf::Model& model, Buffers& buffers, const Context& context,
                                     std::vector<Place>* places) {
     std::vector<Place> stack;
     const auto push = [&](std::size_t node, std::uint32_t parent, const Affine& world) {
-        stack.push_back({node, parent, world * local_transform(model.nodes[node])});
+        const Affine local = local_transform(model.nodes[node]);
+        stack.push_back({node, parent, world * local, local});
     };
     // The number of the place; 0 if nobody wants them.
     const auto note = [&](const Place& place) {
@@ -149,7 +135,8 @@ std::vector<Instance> flatten_scene(const tinygltf::Model& model, Buffers& buffe
                 const std::size_t most = max_nodes - std::min(max_nodes, visits + instances.size());
                 for (const Affine& local : gpu_instances(model, extension->second, buffers, most, context)) {
                     const Affine world = visit.world * local;
-                    instances.push_back({visit.node, world, note({visit.node, own, world, true})});
+                    instances.push_back(
+                        {visit.node, world, note({visit.node, own, world, local, Place::Kind::instance})});
                 }
             }
         }
@@ -160,26 +147,65 @@ std::vector<Instance> flatten_scene(const tinygltf::Model& model, Buffers& buffe
     return instances;
 }
 
-std::vector<Affine> global_transforms(const tinygltf::Model& model) {
-    constexpr std::size_t none = static_cast<std::size_t>(-1);
-    std::vector<std::size_t> parent(model.nodes.size(), none);
+std::vector<std::uint32_t> first_parents(const tinygltf::Model& model) {
+    std::vector<std::uint32_t> parent(model.nodes.size(), no_index);
     for (std::size_t i = 0; i < model.nodes.size(); ++i)
-        for (const int child : model.nodes[i].children)
-            if (parent[static_cast<std::size_t>(child)] == none) parent[static_cast<std::size_t>(child)] = i;
+        for (const int value : model.nodes[i].children) {
+            std::uint32_t& of_child = parent[static_cast<std::size_t>(value)];
+            if (of_child == no_index) of_child = static_cast<std::uint32_t>(i);
+        }
+    return parent;
+}
 
+std::vector<Affine> global_transforms(const tinygltf::Model& model) {
+    const std::vector<std::uint32_t> parent = first_parents(model);
     std::vector<Affine> globals(model.nodes.size());
     std::vector<bool> known(model.nodes.size());
-    std::vector<std::size_t> chain;
-    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    std::vector<std::uint32_t> chain;
+    for (std::uint32_t i = 0; i < model.nodes.size(); ++i) {
         chain.clear();
-        for (std::size_t node = i; node != none && !known[node]; node = parent[node]) chain.push_back(node);
+        for (std::uint32_t node = i; node != no_index && !known[node]; node = parent[node])
+            chain.push_back(node);
         for (auto node = chain.rbegin(); node != chain.rend(); ++node) {
             const Affine local = local_transform(model.nodes[*node]);
-            globals[*node] = parent[*node] == none ? local : globals[parent[*node]] * local;
+            globals[*node] = parent[*node] == no_index ? local : globals[parent[*node]] * local;
             known[*node] = true;
         }
     }
     return globals;
+}
+
+std::vector<std::uint32_t> place_along_first_parents(const tinygltf::Model& model,
+                                                     std::span<const std::uint32_t> wanted,
+                                                     std::vector<Place>& places) {
+    const std::vector<std::uint32_t> parent = first_parents(model);
+    std::vector<std::uint32_t> place_of(model.nodes.size(), no_index);
+    for (std::uint32_t i = 0; i < places.size(); ++i) { // parents first
+        const Place& place = places[i];
+        const std::uint32_t above = parent[place.node] == no_index ? no_index : place_of[parent[place.node]];
+        if (place.kind == Place::Kind::node && place.parent == above &&
+            (above != no_index || parent[place.node] == no_index))
+            place_of[place.node] = i;
+    }
+    std::vector<std::uint32_t> chain, out;
+    for (const std::uint32_t node : wanted) {
+        chain.clear();
+        for (std::uint32_t up = node; up != no_index && place_of[up] == no_index; up = parent[up])
+            chain.push_back(up);
+        for (auto next = chain.rbegin(); next != chain.rend(); ++next) {
+            Place place{*next, no_index, local_transform(model.nodes[*next])};
+            place.local = place.world;
+            if (parent[*next] != no_index) {
+                place.parent = place_of[parent[*next]];
+                place.world = places[place.parent].world * place.local;
+            }
+            place.kind = Place::Kind::outside;
+            place_of[*next] = static_cast<std::uint32_t>(places.size());
+            places.push_back(place);
+        }
+        out.push_back(place_of[node]);
+    }
+    return out;
 }
 
 } // namespace spa::import::gltf

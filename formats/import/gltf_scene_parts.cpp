@@ -93,9 +93,10 @@ public:
         if (!is_finite(place.world))
             fail(context_, at("nodes", place.node), "its transform or that of a parent is not finite");
         const bool is_group = node.mesh >= 0 && node.extensions.count("EXT_mesh_gpu_instancing") != 0;
-        scene_.nodes.push_back(
-            {is_group && !place.is_instance ? "" : counted(node.name), place.parent, place.world});
-        if (place.is_instance) return;
+        const bool is_nameless = is_group && place.kind != Place::Kind::instance;
+        scene_.nodes.push_back({is_nameless ? "" : counted(node.name), place.parent, place.world, place.local,
+                                static_cast<std::uint32_t>(place.node)});
+        if (place.kind != Place::Kind::node) return;
         if (node.camera >= 0) add_camera(place, node);
         const auto light = node.extensions.find(lights_extension);
         if (light != node.extensions.end()) add_light(place, node, light->second);

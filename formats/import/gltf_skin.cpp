@@ -26,32 +26,33 @@ void add_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& 
     }
 }
 
-std::vector<Affine> joint_matrices(const tinygltf::Model& model, const tinygltf::Skin& skin,
-                                   std::span<const Affine> globals, Buffers& buffers,
-                                   const Context& context) {
-    std::vector<std::array<float, 16>> inverse_bind(skin.joints.size());
-    const bool has_bind = skin.inverseBindMatrices >= 0;
-    if (has_bind) {
-        // Only as many as there are joints: the accessor may hold more.
-        std::vector<std::uint32_t> subset(skin.joints.size());
-        for (std::size_t i = 0; i < subset.size(); ++i) subset[i] = static_cast<std::uint32_t>(i);
-        read_floats(model.accessors[static_cast<std::size_t>(skin.inverseBindMatrices)], buffers, subset, 16,
-                    inverse_bind[0].data(), 16, context);
-    }
+std::vector<Affine> inverse_bind_matrices(const tinygltf::Model& model, const tinygltf::Skin& skin,
+                                          Buffers& buffers, const Context& context) {
     std::vector<Affine> matrices(skin.joints.size());
+    if (skin.inverseBindMatrices < 0) return matrices;
+    // Only as many as there are joints: the accessor may hold more.
+    std::vector<std::uint32_t> subset(skin.joints.size());
+    for (std::size_t i = 0; i < subset.size(); ++i) subset[i] = static_cast<std::uint32_t>(i);
+    std::vector<std::array<float, 16>> inverse_bind(skin.joints.size());
+    read_floats(model.accessors[static_cast<std::size_t>(skin.inverseBindMatrices)], buffers, subset, 16,
+                inverse_bind[0].data(), 16, context);
     for (std::size_t j = 0; j < matrices.size(); ++j) {
-        const Affine& global = globals[static_cast<std::size_t>(skin.joints[j])];
-        matrices[j] = global;
-        if (!has_bind) continue;
         const std::array<float, 16>& m = inverse_bind[j]; // column-major
         if (std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1.0F) > 1e-4F)
             warn(context, at("accessors", static_cast<std::size_t>(skin.inverseBindMatrices)),
                  "matrix " + std::to_string(j) + " is not affine: its last row is taken as 0 0 0 1");
-        Affine bind;
-        for (std::size_t i = 0; i < 3; ++i) bind.linear.row[i] = {m[i], m[4 + i], m[8 + i]};
-        bind.translation = {m[12], m[13], m[14]};
-        matrices[j] = global * bind;
+        for (std::size_t i = 0; i < 3; ++i) matrices[j].linear.row[i] = {m[i], m[4 + i], m[8 + i]};
+        matrices[j].translation = {m[12], m[13], m[14]};
     }
+    return matrices;
+}
+
+std::vector<Affine> joint_matrices(const tinygltf::Model& model, const tinygltf::Skin& skin,
+                                   std::span<const Affine> globals, Buffers& buffers,
+                                   const Context& context) {
+    std::vector<Affine> matrices = inverse_bind_matrices(model, skin, buffers, context);
+    for (std::size_t j = 0; j < matrices.size(); ++j)
+        matrices[j] = globals[static_cast<std::size_t>(skin.joints[j])] * matrices[j];
     return matrices;
 }
 

@@ -20,6 +20,10 @@ void add_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& 
                        std::span<const std::uint32_t> subset, std::span<Vec3f> values,
                        const Context& context);
 
+// What every joint has its vertices moved by before its own transform; the identity where the file has none.
+std::vector<Affine> inverse_bind_matrices(const tinygltf::Model& model, const tinygltf::Skin& skin,
+                                          Buffers& buffers, const Context& context);
+
 // jointGlobal * inverseBind of every joint (glTF 2.0, 3.7.3.3).
 std::vector<Affine> joint_matrices(const tinygltf::Model& model, const tinygltf::Skin& skin,
                                    std::span<const Affine> globals, Buffers& buffers, const Context& context);

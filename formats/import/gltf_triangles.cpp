@@ -110,7 +110,7 @@ Fate fate_of(const Triangle& triangle, std::span<const Vec3f> positions) {
     return normal == Vec3d{} ? Fate::degenerate : Fate::kept;
 }
 
-void make_flat(Model& model, std::size_t base, std::size_t first) {
+std::vector<std::uint32_t> make_flat(Model& model, std::size_t base, std::size_t first) {
     std::vector<std::uint32_t> corners;
     corners.reserve((model.triangles.size() - first) * 3);
     for (std::size_t i = first; i < model.triangles.size(); ++i)
@@ -126,14 +126,15 @@ void make_flat(Model& model, std::size_t base, std::size_t first) {
         const Vec3f normal = to_float(normalize(area_normal(model, triangle)));
         for (const std::uint32_t vertex : triangle.vertex) model.normals[vertex] = normal;
     }
+    return corners;
 }
 
-void drop_unused_vertices(Model& model, std::size_t base, std::size_t first) {
+std::vector<std::uint32_t> drop_unused_vertices(Model& model, std::size_t base, std::size_t first) {
     const std::size_t count = model.positions.size() - base;
     std::vector<std::uint8_t> used(count);
     for (std::size_t i = first; i < model.triangles.size(); ++i)
         for (const std::uint32_t vertex : model.triangles[i].vertex) used[vertex - base] = 1;
-    if (std::find(used.begin(), used.end(), std::uint8_t{0}) == used.end()) return;
+    if (std::find(used.begin(), used.end(), std::uint8_t{0}) == used.end()) return {};
 
     std::vector<std::uint32_t> kept, number(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -146,19 +147,20 @@ void drop_unused_vertices(Model& model, std::size_t base, std::size_t first) {
     gather(model.colors, base, kept);
     for (std::size_t i = first; i < model.triangles.size(); ++i)
         for (std::uint32_t& vertex : model.triangles[i].vertex) vertex = number[vertex - base];
+    return kept;
 }
 
-std::size_t repair_normals(Model& model, std::size_t base, std::size_t first) {
-    std::size_t repaired = 0;
+std::vector<std::uint32_t> repair_normals(Model& model, std::size_t base, std::size_t first) {
+    std::vector<std::uint32_t> repaired;
     std::vector<std::uint8_t> bad(model.positions.size() - base);
     for (std::size_t i = base; i < model.normals.size(); ++i) {
         Vec3f& normal = model.normals[i];
         if (is_finite(normal) && !(normal == Vec3f{})) continue;
         normal = {};
         bad[i - base] = 1;
-        ++repaired;
+        repaired.push_back(static_cast<std::uint32_t>(i));
     }
-    if (repaired == 0) return 0;
+    if (repaired.empty()) return repaired;
     std::vector<Vec3d> sums(bad.size());
     for (std::size_t i = first; i < model.triangles.size(); ++i) {
         const Vec3d area = area_normal(model, model.triangles[i]);

@@ -57,11 +57,11 @@ void finish_triangles(Model& model, std::size_t first, std::size_t base, Report&
 }
 
 // From vertex `base` and triangle `first` to the end of the model. Flat shading: every triangle gets vertices
-// of its own with its normal.
-void make_flat(Model& model, std::size_t base, std::size_t first);
-// Vertices that no triangle uses go.
-void drop_unused_vertices(Model& model, std::size_t base, std::size_t first);
-// Normals that are zero or not finite are computed from the triangles. Returns how many there were.
-std::size_t repair_normals(Model& model, std::size_t base, std::size_t first);
+// of its own with its normal. Returns which vertex each of the new ones was.
+std::vector<std::uint32_t> make_flat(Model& model, std::size_t base, std::size_t first);
+// Vertices that no triangle uses go. Returns which vertex each that is left was; empty: all are left.
+std::vector<std::uint32_t> drop_unused_vertices(Model& model, std::size_t base, std::size_t first);
+// Normals that are zero or not finite are computed from the triangles. Returns their vertices, ascending.
+std::vector<std::uint32_t> repair_normals(Model& model, std::size_t base, std::size_t first);
 
 } // namespace spa::import::gltf

@@ -99,20 +99,51 @@ Asset open_asset(const std::filesystem::path& path, const Limits& limits) {
     return asset;
 }
 
+// Of nodes that stand still: every vertex follows the node of its first triangle.
+void add_rigid_rig(const Asset& asset, const Limits& limits, Scene& scene) {
+    constexpr std::uint64_t rigged_vertex_bytes = vertex_bytes + 2 * sizeof(Vec3f) + sizeof(Influence) + 4;
+    if (scene.model.positions.size() * rigged_vertex_bytes + scene.model.triangles.size() * triangle_bytes >
+        limits.model_bytes)
+        throw Error(ExitCode::invalid_data,
+                    asset.path.string() + ": its rig makes it larger than the limit of " +
+                        std::to_string(limits.model_bytes) + " bytes; simplify the mesh");
+    Rig& rig = scene.rig;
+    rig.positions = scene.model.positions;
+    rig.normals = scene.model.normals;
+    rig.influences.resize(rig.positions.size(), {no_index, 1});
+    for (std::uint32_t v = 0; v <= rig.positions.size(); ++v) rig.first.push_back(v);
+    std::vector<std::uint32_t> bones(scene.nodes.size(), no_index);
+    for (std::size_t t = 0; t < scene.model.triangles.size(); ++t)
+        for (const std::uint32_t vertex : scene.model.triangles[t].vertex) {
+            if (rig.influences[vertex].bone != no_index) continue;
+            const std::uint32_t node = scene.triangle_nodes[t];
+            if (bones[node] == no_index) {
+                bones[node] = static_cast<std::uint32_t>(rig.bones.size());
+                rig.bones.push_back({node, no_index, 0, {}});
+            }
+            rig.influences[vertex].bone = bones[node];
+        }
+}
+
 } // namespace
 
 Result read_asset(const Asset& asset, const Limits& limits) { return find_reader(asset)(asset, limits); }
 
-SceneResult read_asset_scene(const Asset& asset, const Limits& limits) {
+SceneResult read_asset_scene(const Asset& asset, const Limits& limits, const SceneOptions& options) {
     const Reader reader = find_reader(asset);
-    if (reader == read_gltf) return read_gltf_scene(asset, limits);
-    if (reader == read_obj) return read_obj_scene(asset, limits);
-    Result read = reader(asset, limits);
+    if (reader == read_gltf) return read_gltf_scene(asset, limits, options);
     SceneResult result;
-    result.report = std::move(read.report);
-    result.scene.model = std::move(read.model);
-    result.scene.nodes.push_back({asset.path.stem().string(), no_index, {}});
-    result.scene.triangle_nodes.assign(result.scene.model.triangles.size(), 0);
+    if (reader == read_obj) {
+        result = read_obj_scene(asset, limits);
+    } else {
+        Result read = reader(asset, limits);
+        result.report = std::move(read.report);
+        result.scene.model = std::move(read.model);
+        result.scene.nodes.push_back({asset.path.stem().string(), no_index, {}});
+        result.scene.triangle_nodes.assign(result.scene.model.triangles.size(), 0);
+    }
+    for (std::uint32_t i = 0; i < result.scene.nodes.size(); ++i) result.scene.nodes[i].source = i;
+    if (options.rig) add_rigid_rig(asset, limits, result.scene);
     return result;
 }
 
@@ -120,8 +151,8 @@ Result read_model(const std::filesystem::path& path, const Limits& limits) {
     return read_asset(open_asset(path, limits), limits);
 }
 
-SceneResult read_scene(const std::filesystem::path& path, const Limits& limits) {
-    return read_asset_scene(open_asset(path, limits), limits);
+SceneResult read_scene(const std::filesystem::path& path, const Limits& limits, const SceneOptions& options) {
+    return read_asset_scene(open_asset(path, limits), limits, options);
 }
 
 } // namespace spa::import

@@ -83,6 +83,13 @@ struct SceneResult {
     Report report;
 };
 
+// What of a scene is read beside what it always has.
+struct SceneOptions {
+    // Scene::rig: the bones and weights of the model, which is then in its rest pose as always, and the
+    // animations of glTF. The morph targets of the rig have their default weights.
+    bool rig = false;
+};
+
 // Reads a scene: as read_model does, and which node every triangle belongs to, and
 // - of glTF the nodes of the scene (a node with several parents once below each; EXT_mesh_gpu_instancing
 // makes
@@ -94,8 +101,12 @@ struct SceneResult {
 // before
 //   any belong to a node named after the file, without its extension.
 // - of all others that node alone.
-// Throws Error(invalid_data) too where a camera or a light breaks the rules of glTF (scene.h names the
-// ranges), and for more than 2^20 nodes or 64 MiB of names.
-SceneResult read_scene(const std::filesystem::path& path, const Limits& limits = {});
+// Joints that the scene does not list come last, as nodes, if a rig is wanted. An animation that moves a node
+// which stands at several places moves all of them; what moves none of the scene's nodes, the weights of
+// morph targets and what extensions move are left out, the latter two with warnings.
+// Throws Error(invalid_data) too where a camera, a light or, of a rig, an animation breaks the rules of glTF
+// (scene.h and rig.h name the ranges), and for more than 2^20 nodes or 64 MiB of names.
+SceneResult read_scene(const std::filesystem::path& path, const Limits& limits = {},
+                       const SceneOptions& options = {});
 
 } // namespace spa::import

@@ -13,7 +13,7 @@ namespace spa::import {
 
 // By the reader that the first bytes ask for or, where they do not say, the extension.
 Result read_asset(const Asset& asset, const Limits& limits);
-SceneResult read_asset_scene(const Asset& asset, const Limits& limits);
+SceneResult read_asset_scene(const Asset& asset, const Limits& limits, const SceneOptions& options);
 
 Result read_gltf(const Asset& asset, const Limits& limits); // glTF 2.0 JSON and GLB
 Result read_obj(const Asset& asset, const Limits& limits);
@@ -22,7 +22,7 @@ Result read_stl(const Asset& asset, const Limits& limits);
 Result read_off(const Asset& asset, const Limits& limits);
 
 // What beside the model has nodes.
-SceneResult read_gltf_scene(const Asset& asset, const Limits& limits);
+SceneResult read_gltf_scene(const Asset& asset, const Limits& limits, const SceneOptions& options);
 SceneResult read_obj_scene(const Asset& asset, const Limits& limits);
 
 // What a vertex and a triangle of a model take at most, by which limits.model_bytes is counted: position,

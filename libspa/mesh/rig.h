@@ -4,9 +4,8 @@
 // so that both are posed (pose.h) by the same sum.
 #pragma once
 
-#include "../core/affine.h"
+#include "../core/rotation.h"
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -22,31 +21,32 @@ struct Bone {
 };
 
 struct Influence {
-    std::uint32_t bone = 0; // index into Rig::bones
-    float weight = 0;       // > 0; those of a vertex sum to 1
+    std::uint32_t bone = 0; // index into Rig::bones; a vertex may name one twice
+    float weight = 0;       // finite, not 0, negative only if the file has it so; those of a vertex sum to 1
 };
 
 enum class Interpolation : std::uint8_t { linear, step, cubic_spline };
 
-// A value over time: `width` numbers a key; cubic_spline has in-tangent, value and out-tangent, 3 * width.
+// A value over time: three numbers a key, or the four of a quaternion x y z w; cubic_spline has in-tangent,
+// value and out-tangent.
 struct Curve {
     Interpolation interpolation = Interpolation::linear;
-    std::vector<float> times; // seconds, ascending; empty: the value rests
-    std::vector<float> values;
+    std::vector<float> times;  // seconds, finite, ascending; empty: the value rests
+    std::vector<float> values; // finite
 };
 
 // What an animation does to a node: the parts of its local transform T * R * S that have no curve rest.
 struct Track {
     std::uint32_t node = 0; // index into Scene::nodes
     Vec3d translation, scale{1, 1, 1};
-    std::array<double, 4> rotation{0, 0, 0, 1}; // quaternion x y z w
+    Quaternion rotation;
     Curve translations, rotations, scales;
 };
 
 struct Animation {
-    std::string name;
-    std::vector<Track> tracks;
-    double seconds = 0; // the last key of all curves
+    std::string name;          // may be empty and occur more than once
+    std::vector<Track> tracks; // at most one a node
+    double seconds = 0;        // the last key of all curves
 };
 
 struct Rig {
