@@ -45,6 +45,21 @@ Json folds_json(const bake::FoldStatistics& folds) {
     };
 }
 
+Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json center_json(const bake::Placement& placement) {
+    return {
+        {"chosen", name(placement.center_chosen)},
+        {"kernel", placement.kernel},
+        {"captured_bounds", optional_json(placement.captured_bounds)},
+        {"captured", optional_json(placement.captured)},
+    };
+}
+
+Json frame_json(const bake::Placement& placement) {
+    return {{"chosen", name(placement.frame_chosen)}, {"elongation", optional_json(placement.elongation)}};
+}
+
 // The counts; without what depends on the machine.
 Json counts_json(const BakeFacts& facts) {
     const import::Report& source = facts.source.report;
@@ -61,6 +76,8 @@ Json counts_json(const BakeFacts& facts) {
         {"back_facing_samples", bake.back_facing_samples},
         {"thin_samples", bake.thin_samples},
         {"truncated_samples", bake.truncated_samples},
+        {"center", center_json(bake.placement)},
+        {"frame", frame_json(bake.placement)},
         {"center_on_surface", bake.center_on_surface},
         {"center_inside", bake.center_inside},
         {"center_moved", bake.center_moved},
@@ -101,6 +118,21 @@ std::string mesh_text(const bake::Report& bake) {
     std::string text = std::to_string(bake.components) + (bake.components == 1 ? " piece" : " pieces");
     text += bake.open_edges == 0 ? ", watertight" : ", " + std::to_string(bake.open_edges) + " open edges";
     return text + (bake.center_inside ? ", centre inside the solid" : ", centre outside the solid");
+}
+
+std::string placement_text(const bake::Placement& placement) {
+    std::string text = placement.center_chosen == bake::Center::captured
+                           ? (placement.kernel ? "a point that sees all of the surface"
+                                               : "the point that holds the surface best")
+                           : "that of the bounding box";
+    if (placement.captured && placement.center_chosen == bake::Center::captured)
+        text += ", " + percent(*placement.captured) + " captured, from that of the bounding box " +
+                percent(*placement.captured_bounds);
+    else if (placement.captured)
+        text += ", " + percent(*placement.captured) + " captured";
+    text += std::string("; frame ") + name(placement.frame_chosen);
+    if (placement.elongation) text += ", elongation " + significant(*placement.elongation, 2);
+    return text;
 }
 
 std::string measured_text(const measure::Measurement& m) {
@@ -167,6 +199,7 @@ std::string report_text(const BakeFacts& facts, std::uint64_t output_bytes, doub
                                std::to_string(bake.triangles) + " triangles");
     text += line("mesh", mesh_text(bake));
     text += line("map", options_text(facts.arguments.settings.options));
+    text += line("centre", placement_text(bake.placement));
     if (!bake.gl.empty()) text += line("gl", bake.gl);
     for (std::size_t i = 0; i < bake.layers.size(); ++i)
         text += line(i == 0 ? "layers" : "",
