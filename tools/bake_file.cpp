@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake_file.h"
 
+#include "bake_search.h"
 #include "interrupt.h"
 #include "map_file.h"
 #include "output.h"
@@ -12,6 +13,7 @@
 #include <tbb/global_control.h>
 
 #include <chrono>
+#include <utility>
 
 namespace spa::tools {
 
@@ -70,6 +72,13 @@ measure::Measurement measure_with_progress(const BakeArguments& arguments, const
     });
 }
 
+// Leaves what it found in `baked`.
+bake::Result search_map(const BakeArguments& arguments, BakedFile& baked) {
+    baked.search = search_with_progress(arguments, baked.source.model);
+    baked.measurement = std::move(baked.search->measurement);
+    return std::exchange(baked.search->baked, {});
+}
+
 std::vector<std::byte> encode(const SphericalMap& map, const BakeArguments& arguments) {
     const SlowStep step("writing " + arguments.output.filename().string(), arguments.quiet);
     container::WriteOptions options;
@@ -80,10 +89,18 @@ std::vector<std::byte> encode(const SphericalMap& map, const BakeArguments& argu
     return bytes;
 }
 
+// Metadata take more room than the search took them to.
+void check_bytes(const BakeArguments& arguments, const BakedFile& baked) {
+    if (!baked.search || baked.bytes.size() <= arguments.settings.search->max_bytes) return;
+    throw Error(ExitCode::limits, arguments.output.string() + ": the map takes " +
+                                      std::to_string(baked.bytes.size()) +
+                                      " bytes with its metadata, more than --max-bytes; allow more");
+}
+
 } // namespace
 
 BakeFacts BakedFile::facts(const BakeArguments& arguments) const {
-    return {arguments, source, report, measurement ? &*measurement : nullptr};
+    return {arguments, source, report, measurement ? &*measurement : nullptr, search ? &*search : nullptr};
 }
 
 BakedFile bake_file(const BakeArguments& arguments) {
@@ -95,15 +112,16 @@ BakedFile bake_file(const BakeArguments& arguments) {
     check_inputs(arguments, baked.source.report);
 
     const InterruptGuard guard;
-    bake::Result result = bake_with_progress(arguments, baked.source.model);
+    bake::Result result = arguments.settings.search ? search_map(arguments, baked)
+                                                    : bake_with_progress(arguments, baked.source.model);
     baked.report = std::move(result.report);
     SphericalMap& map = result.map.map;
-    if (arguments.settings.measure) {
+    if (arguments.settings.measure && !baked.measurement)
         baked.measurement = measure_with_progress(arguments, baked.source.model, map.parts.front());
-        map.parts.front().errors = measure::error_figures(*baked.measurement);
-    }
+    if (baked.measurement) map.parts.front().errors = measure::error_figures(*baked.measurement);
     map.metadata = metadata(baked.facts(arguments));
     baked.bytes = encode(map, arguments);
+    check_bytes(arguments, baked);
     InterruptGuard::check();
     if (arguments.make_folders) make_folders_of(arguments.output);
     StagedFile file(arguments.output);

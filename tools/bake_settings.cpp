@@ -44,6 +44,9 @@ struct Given {
     std::optional<std::string> size, color_size;
     std::optional<ElementFormat> depth, normals;
     std::optional<std::uint32_t> layers;
+    std::optional<bake::Frame> frame;
+    std::optional<bake::Center> center;
+    GivenSearch search;
 };
 
 enum class Folds : std::uint8_t { off, on };
@@ -92,6 +95,17 @@ BakeSettings complete(const Given& given) {
     options.depth = given.depth.value_or(given.paper ? ElementFormat::u8 : options.depth);
     options.normals = given.normals.value_or(given.paper ? ElementFormat::rgb8 : options.normals);
     options.layers = given.layers.value_or(given.paper ? 1 : options.layers);
+    options.frame = given.frame.value_or(options.frame);
+    options.center = given.center.value_or(options.center);
+    settings.search = complete_search(given.search,
+                                      {given.size || given.paper, given.color_size || given.paper,
+                                       given.depth || given.paper, given.layers || given.paper,
+                                       given.frame.has_value(), given.center.has_value()},
+                                      options);
+    if (settings.search) {
+        settings.search->compress = settings.compress;
+        settings.measure = true;
+    }
     return settings;
 }
 
@@ -134,13 +148,13 @@ void define_map_options(CLI::App& app, Given& given) {
     add_choice<bake::Frame>(app, "--frame", {bake::Frame::sphere, bake::Frame::affine},
                             "The space that is baked: object space, or one stretched so that the oriented "
                             "bounding box is a cube, which suits long and flat objects",
-                            [&given](bake::Frame frame) { given.settings.options.frame = frame; })
+                            [&given](bake::Frame frame) { given.frame = frame; })
         ->default_str(name(defaults.frame));
     add_choice<bake::Center>(
         app, "--center", {bake::Center::bounds, bake::Center::captured},
         "The point that directions start from: the centre of the bounding box, or the point "
         "from which the most surface area is outermost",
-        [&given](bake::Center center) { given.settings.options.center = center; })
+        [&given](bake::Center center) { given.center = center; })
         ->default_str(name(defaults.center));
     app.add_flag(
         "--paper", given.paper,
@@ -179,6 +193,7 @@ std::function<BakeSettings()> define_bake_settings(CLI::App& app) {
     const auto given = std::make_shared<Given>();
     BakeSettings& settings = given->settings;
     define_map_options(app, *given);
+    define_search_options(app, given->search);
     define_baker_options(app, *given);
     add_choice<Compression>(
         app, "--compress", {Compression::zstd, Compression::none},
@@ -214,6 +229,12 @@ nlohmann::ordered_json options_json(const BakeSettings& settings) {
         {"compress", name(settings.compress ? Compression::zstd : Compression::none)},
         {"measure", settings.measure},
     };
+}
+
+nlohmann::ordered_json request_json(const BakeSettings& settings) {
+    nlohmann::ordered_json options = options_json(settings);
+    if (settings.search) add_search_options(*settings.search, options);
+    return options;
 }
 
 } // namespace spa::tools

@@ -4,12 +4,14 @@
 #pragma once
 
 #include "arguments.h"
+#include "search_settings.h"
 
 #include "../libspa/bake/bake_options.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace spa::tools {
@@ -18,6 +20,7 @@ struct BakeSettings {
     bake::Options options;
     bool compress = true; // zstd
     bool measure = false;
+    std::optional<plan::SearchRequest> search; // what of `options` a target decides
 };
 
 // Adds the options to the parser. The function returned is called after parsing and fills in what was not
@@ -27,6 +30,8 @@ std::function<BakeSettings()> define_bake_settings(CLI::App& app);
 // Every option that the bytes of the output depend on, effective value, under the name that it has on the
 // command line and as text or number that the command line takes.
 nlohmann::ordered_json options_json(const BakeSettings& settings);
+// The same as it was asked for: with a search its target instead of what it decides. Without one the same.
+nlohmann::ordered_json request_json(const BakeSettings& settings);
 
 // The size of a map as --size takes it: "256" (octahedral, cells a side) or "640x480".
 std::string size_text(const Grid& grid);
