@@ -55,7 +55,7 @@ Estimate estimate_share(std::uint64_t count, std::uint64_t of) {
     const double middle = (p + zz / (2 * n)) / (1 + zz / n);
     const double width = confidence / (1 + zz / n) * std::sqrt(p * (1 - p) / n + zz / (4 * n * n));
     estimate.value = p;
-    estimate.low = std::max(middle - width, 0.0);
+    estimate.low = count == 0 ? 0 : std::max(middle - width, 0.0); // rounding aside
     estimate.high = std::min(middle + width, 1.0);
     estimate.samples = of;
     return estimate;

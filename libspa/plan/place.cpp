@@ -29,7 +29,7 @@ constexpr double bytes_a_sample = 4;
 Place::Place(const Model& model, const Components& components, const SearchRequest& request,
              bake::Frame frame, bake::Center center, double unit, const bake::Progress& progress)
     : model_(model), request_(request), frame_(frame), center_(center),
-      baker_(model, components, placed(request.options, frame, center), request.layers.back(), progress),
+      baker_(model, components, placed(request.options, frame, center), progress),
       radius_(is_of_rays(request.metric) ? measure::radius_about(model, baker_.place().center, Mat3{})
                                          : baker_.place().radius),
       color_cells_(request.color_cells.front()) {
@@ -48,6 +48,7 @@ Place::Place(const Model& model, const Components& components, const SearchReque
 
 void Place::choose_colors(std::vector<TriedColor>& tried) {
     if (request_.color_cells.size() == 1) return;
+    color_bytes_.clear();
     const ColorJudge judge(model_, baker_.place(), request_.footprint);
     // Where no size keeps the target, texels that bring less than a twentieth are not worth their bytes.
     constexpr double worth_it = 0.95;

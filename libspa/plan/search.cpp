@@ -258,11 +258,10 @@ private:
         const bake::Options options = options_of(candidate, request_.options);
         result_.baked = bake::bake_model(model_, options, progress_between(0.7, 0.8));
         const SphericalMap& map = result_.baked.map.map;
-        measure::MeasureOptions measure;
+        measure::MeasureOptions measure = request_.measure;
         measure.color_samples = options.samples;
         measure.layers = options.layers;
         measure.threads = options.threads;
-        measure.rays = measure::RayOptions{}.rays;
         result_.measurement =
             measure::measure_map(model_, map.parts.front(), measure, progress_between(0.8, 1));
         result_.bytes = file_bytes(map, request_.compress) + request_.other_bytes;

@@ -33,6 +33,8 @@ struct SearchRequest {
     std::uint64_t max_bytes = std::numeric_limits<std::uint64_t>::max(); // of the file
     std::uint64_t other_bytes = 0; // of the file beside the map itself, such as its metadata
     bool compress = true;
+    // How the chosen map is measured; layers, samples of colour and threads are those of its bake.
+    measure::MeasureOptions measure{.rays = measure::RayOptions{}.rays};
     bool best = false; // if nothing meets the target: take what comes nearest
 };
 

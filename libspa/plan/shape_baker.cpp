@@ -68,9 +68,9 @@ bake::SurfaceGrid no_surfaces(Mapping mapping, std::size_t count) {
 } // namespace
 
 ShapeBaker::ShapeBaker(const Model& model, const Components& components, const bake::Options& options,
-                       std::uint32_t most_layers, const bake::Progress& progress)
-    : model_(model), components_(components), most_layers_(most_layers), threads_(options.threads),
-      progress_(progress), place_(place_of(model, options)), solid_of_one_depth_(place_.center_inside),
+                       const bake::Progress& progress)
+    : model_(model), components_(components), threads_(options.threads), progress_(progress),
+      place_(place_of(model, options)), solid_of_one_depth_(place_.center_inside),
       common_samples_(options.grid.mapping == Mapping::octahedral && !alpha_decides(model)),
       centered_(bake::center_model(model, {place_.center, place_.frame, place_.radius})) {
     place_.mapping = options.grid.mapping;
@@ -82,22 +82,23 @@ std::uint32_t ShapeBaker::cells_to_cast(std::uint32_t cells) const {
     return cells;
 }
 
-const bake::CrossingGrid& ShapeBaker::crossings(const Grid& grid) {
-    if (current_.grid == grid) return current_;
-    const bake::CastOptions options{most_layers_ == 1, threads_, progress_};
+const bake::CrossingGrid& ShapeBaker::crossings(const Grid& grid, bool outermost_only) {
+    Casts& casts = outermost_only ? outermost_ : all_;
+    if (casts.latest.grid == grid) return casts.latest;
+    const bake::CastOptions options{outermost_only, threads_, progress_};
     if (!common_samples_) {
-        current_ = bake::cast_radial(centered_, grid, options);
-        return current_;
+        casts.latest = bake::cast_radial(centered_, grid, options);
+        return casts.latest;
     }
     const std::uint32_t cells = cells_of(grid);
     std::uint32_t family = cells;
     while (family % 2 == 0) family /= 2;
-    bake::CrossingGrid& cast = cast_[family];
+    bake::CrossingGrid& cast = casts.largest[family];
     if (cast.grid.width < grid.width)
         cast = bake::cast_radial(centered_, grid_of(grid.mapping, cells_to_cast(cells)), options);
     if (cast.grid == grid) return cast;
-    current_ = every_sample_of(cast, cells);
-    return current_;
+    casts.latest = every_sample_of(cast, cells);
+    return casts.latest;
 }
 
 bake::SurfaceGrid ShapeBaker::surfaces(const bake::CrossingGrid& crossings, const bake::Options& options,
@@ -115,7 +116,7 @@ bake::SurfaceGrid ShapeBaker::surfaces(const bake::CrossingGrid& crossings, cons
 }
 
 Shape ShapeBaker::bake(const bake::Options& options) {
-    const bake::CrossingGrid& seen = crossings(options.grid);
+    const bake::CrossingGrid& seen = crossings(options.grid, options.one_depth());
     Shape result;
     bake::Orientation orientation;
     const bake::SurfaceGrid shape = surfaces(seen, options, orientation, result.truncated);
@@ -147,7 +148,8 @@ std::uint64_t ShapeBaker::estimate_color_bytes(const bake::Options& options, boo
     probe.samples = 1;
     bake::Orientation orientation;
     bool truncated = false;
-    const bake::SurfaceGrid shape = surfaces(crossings(probe.grid), probe, orientation, truncated);
+    const bake::SurfaceGrid shape =
+        surfaces(crossings(probe.grid, probe.one_depth()), probe, orientation, truncated);
     const auto bytes_with = [&](const bake::SurfaceGrid& color) {
         probe.color_grid = color.grid;
         bake::OwnedMap map;

@@ -23,11 +23,11 @@ struct Shape {
 // it is filtered for the size of a texel: there, and for latlong, every size is cast.
 class ShapeBaker {
 public:
-    // components: find_components(model). options: frame and centre; of all maps that it will bake
-    // most_layers layers at most. Runs in the caller's arena, and the casts on options.threads. Throws as
-    // bake_model does. model and components outlive it.
+    // components: find_components(model). options: frame, centre and mapping of all maps that it will bake.
+    // Runs in the caller's arena, and the casts on options.threads. Throws as bake_model does. model and
+    // components outlive it.
     ShapeBaker(const Model& model, const Components& components, const bake::Options& options,
-               std::uint32_t most_layers, const bake::Progress& progress);
+               const bake::Progress& progress);
 
     // Without layers: where the part stands.
     [[nodiscard]] const Part& place() const { return place_; }
@@ -40,22 +40,25 @@ public:
     std::uint64_t estimate_color_bytes(const bake::Options& options, bool compress);
 
 private:
-    const bake::CrossingGrid& crossings(const Grid& grid);
+    // One depth has its own: where two triangles share an edge it may take the other one.
+    struct Casts {
+        bake::CrossingGrid latest;
+        std::map<std::uint32_t, bake::CrossingGrid> largest; // of each family of sizes, by its odd factor
+    };
+    const bake::CrossingGrid& crossings(const Grid& grid, bool outermost_only);
     [[nodiscard]] std::uint32_t cells_to_cast(std::uint32_t cells) const;
     bake::SurfaceGrid surfaces(const bake::CrossingGrid& crossings, const bake::Options& options,
                                bake::Orientation& orientation, bool& truncated) const;
 
     const Model& model_;
     const Components& components_;
-    std::uint32_t most_layers_;
     unsigned threads_;
     bake::Progress progress_;
     Part place_;
     bool solid_of_one_depth_ = false;
     bool common_samples_ = true;
     bake::CenteredModel centered_;
-    bake::CrossingGrid current_;                       // what crossings() returned last
-    std::map<std::uint32_t, bake::CrossingGrid> cast_; // the largest of each family, by its smallest size
+    Casts all_, outermost_;
 };
 
 } // namespace spa::plan

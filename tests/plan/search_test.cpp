@@ -31,6 +31,8 @@ SearchRequest request_of(Metric metric, double target) {
     request.color_cells = {16};
     request.frames = {bake::Frame::sphere};
     request.centers = {bake::Center::bounds};
+    request.measure.surface_samples = 10'000;
+    request.measure.rays = 30'000;
     return request;
 }
 

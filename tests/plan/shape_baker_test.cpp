@@ -53,7 +53,7 @@ TEST(ShapeBaker, GivesWhatABakeGives) {
     for (const bake::Frame frame : {bake::Frame::sphere, bake::Frame::affine}) {
         bake::Options options;
         options.frame = frame;
-        ShapeBaker baker(model, components, options, 3, {});
+        ShapeBaker baker(model, components, options, {});
         // Up and down, within a family of sizes and out of it.
         for (const std::uint32_t cells : {16U, 64U, 8U, 48U, 160U, 80U}) {
             for (const std::uint32_t layers : {1U, 2U, 3U}) {
@@ -82,7 +82,7 @@ TEST(ShapeBaker, FiltersAlphaForTheSizeAtHand) {
     }
     for (Material& material : model.materials) material.alpha_mode = AlphaMode::mask;
     const Components components = find_components(model);
-    ShapeBaker baker(model, components, {}, 2, {});
+    ShapeBaker baker(model, components, {}, {});
     for (const std::uint32_t cells : {32U, 16U}) {
         const bake::Options options = options_of_size(cells, 2);
         expect_same_shape(baker.bake(options).map.map.parts.front(),
