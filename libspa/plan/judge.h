@@ -6,11 +6,15 @@
 
 #include "../core/spherical_map.h"
 
+#include <limits>
+
 namespace spa::plan {
 
 class Judge {
 public:
     virtual ~Judge() = default;
+    // A target that no interval lies clear of.
+    static constexpr double never_clear = std::numeric_limits<double>::quiet_NaN();
 
     // The metric of a part of the model, in the judge's unit. Takes more and more samples until the interval
     // lies clear of `target`, or there are no more: met if high <= target, else missed. Deterministic;

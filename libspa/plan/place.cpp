@@ -76,7 +76,7 @@ std::uint64_t Place::color_bytes(const Candidate& candidate) {
     return color_bytes_.emplace(candidate.layers, bytes).first->second;
 }
 
-Tried Place::try_out(const Candidate& candidate, bool& truncated) {
+Tried Place::try_out(const Candidate& candidate, bool& truncated, bool exactly) {
     const auto start = std::chrono::steady_clock::now();
     Tried tried;
     tried.candidate = candidate;
@@ -85,7 +85,8 @@ Tried Place::try_out(const Candidate& candidate, bool& truncated) {
     tried.bytes =
         file_bytes(shape.map.map, request_.compress) + color_bytes(candidate) + request_.other_bytes;
     if (tried.bytes <= request_.max_bytes) {
-        tried.error = judge_->judge(shape.map.map.parts.front(), request_.target);
+        tried.error =
+            judge_->judge(shape.map.map.parts.front(), exactly ? Judge::never_clear : request_.target);
         tried.met = tried.error.high <= request_.target;
     }
     tried.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

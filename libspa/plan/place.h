@@ -29,8 +29,9 @@ public:
 
     // Of the place's frame and centre; what is not said is zero.
     [[nodiscard]] Candidate candidate(std::uint32_t cells, std::uint32_t layers, ElementFormat depth) const;
-    // truncated: see Shape.
-    Tried try_out(const Candidate& candidate, bool& truncated);
+    // truncated: see Shape. exactly: with all samples there are, not with as few as tell that the target is
+    // met or missed.
+    Tried try_out(const Candidate& candidate, bool& truncated, bool exactly = false);
     // The bytes of another size, with another depth, after one that was tried.
     [[nodiscard]] std::uint64_t estimate_bytes(const Tried& tried, const Candidate& other);
     // ... before anything was.

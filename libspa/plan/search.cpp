@@ -122,7 +122,7 @@ private:
         const auto layers = std::lower_bound(request_.layers.begin(), request_.layers.end() - 1, 2U);
         bool truncated = false;
         result_.tried.push_back(
-            place.try_out(place.candidate(*cells, *layers, request_.depths.back()), truncated));
+            place.try_out(place.candidate(*cells, *layers, request_.depths.back()), truncated, true));
         step();
         return result_.tried.back().error.value;
     }

@@ -44,10 +44,10 @@ TEST(RayJudge, AgreesWithTheMeasurement) {
         Estimate estimate;
         if (is_of_rays(metric)) {
             const RayJudge judge(model, part.center, {.metric = metric});
-            // A target at the figure itself is the hardest, so that all samples are used.
-            estimate = judge.judge(part, judge.judge(part, 0).value);
+            estimate = judge.judge(part, Judge::never_clear);
+            EXPECT_EQ(estimate.samples, RayJudgeOptions{}.rays);
         } else {
-            estimate = SurfaceJudge(model, {.metric = metric}).judge(part, expected);
+            estimate = SurfaceJudge(model, {.metric = metric}).judge(part, Judge::never_clear);
         }
         EXPECT_GT(expected, 0);
         EXPECT_NEAR(estimate.value, expected, 0.15 * expected);
