@@ -3,6 +3,7 @@
 #include "inspect_report.h"
 #include "map_file.h"
 #include "output.h"
+#include "search_report.h"
 #include "verb.h"
 
 #include <nlohmann/json.hpp>
@@ -29,6 +30,9 @@ void bake_asset(const BakeArguments& arguments) {
     print(arguments.format == ReportFormat::json
               ? json_text(report_json(facts, output_json(arguments, baked.bytes), baked.seconds))
               : report_text(facts, baked.bytes.size(), baked.seconds));
+    if (baked.search && !baked.search->met)
+        throw Error(ExitCode::limits,
+                    arguments.input.string() + ": " + unmet_text(arguments.settings, *baked.search));
 }
 
 } // namespace
@@ -55,6 +59,7 @@ Verb bake_verb() {
                     "$ spa bake boot.glb -o boot.spa --mapping latlong --size 1024x512\n"
                     "$ spa bake boot.glb -o boot.spa --paper --baker orbit\n"
                     "$ spa bake boot.glb -o boot.spa --measure\n"
+                    "$ spa bake boot.glb -o boot.spa --target-error 0.01 --max-bytes 256K\n"
                     "$ spa bake boot.glb -o boot.spa --format json | jq .report",
         .see_also = "spa batch, spa inspect, spa extract, spa sample",
         .define = [](CLI::App& app) -> std::function<void()> {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake_file.h"
 
+#include "bake_search.h"
 #include "interrupt.h"
 #include "map_file.h"
 #include "output.h"
@@ -12,6 +13,7 @@
 #include <tbb/global_control.h>
 
 #include <chrono>
+#include <utility>
 
 namespace spa::tools {
 
@@ -84,6 +86,14 @@ std::vector<Part> without_images(const std::vector<Part>& parts) {
     return bare;
 }
 
+// Leaves what it found in `baked`.
+bake::PartsResult search_map(const BakeArguments& arguments, BakedFile& baked) {
+    baked.search = search_with_progress(arguments, baked.source.asset.model);
+    baked.measurement = std::move(baked.search->measurement);
+    bake::Result found = std::exchange(baked.search->baked, {});
+    return {std::move(found.map), {std::move(found.report)}};
+}
+
 std::vector<std::byte> encode(const SphericalMap& map, const BakeArguments& arguments) {
     const SlowStep step("writing " + arguments.output.filename().string(), arguments.quiet);
     container::WriteOptions options;
@@ -92,6 +102,14 @@ std::vector<std::byte> encode(const SphericalMap& map, const BakeArguments& argu
     std::vector<std::byte> bytes;
     require(container::write(map, options, bytes), arguments.output.string());
     return bytes;
+}
+
+// Metadata take more room than the search took them to.
+void check_bytes(const BakeArguments& arguments, const BakedFile& baked) {
+    if (!baked.search || baked.bytes.size() <= arguments.settings.search->max_bytes) return;
+    throw Error(ExitCode::limits, arguments.output.string() + ": the map takes " +
+                                      std::to_string(baked.bytes.size()) +
+                                      " bytes with its metadata, more than --max-bytes; allow more");
 }
 
 } // namespace
@@ -103,7 +121,8 @@ BakeFacts BakedFile::facts(const BakeArguments& arguments) const {
             part_reports,
             parts,
             report,
-            measurement ? &*measurement : nullptr};
+            measurement ? &*measurement : nullptr,
+            search ? &*search : nullptr};
 }
 
 BakedFile bake_file(const BakeArguments& arguments) {
@@ -115,15 +134,18 @@ BakedFile bake_file(const BakeArguments& arguments) {
     check_inputs(arguments, baked.source.asset.report);
 
     const InterruptGuard guard;
-    bake::PartsResult result = bake_with_progress(arguments, baked.source);
+    bake::PartsResult result = arguments.settings.search ? search_map(arguments, baked)
+                                                         : bake_with_progress(arguments, baked.source);
     baked.part_reports = std::move(result.reports);
     baked.report = bake::sum(baked.part_reports, baked.source.partition);
     SphericalMap& map = result.map.map;
-    if (arguments.settings.measure)
+    if (arguments.settings.measure && !baked.measurement)
         baked.measurement = measure_with_progress(arguments, baked.source, map.parts);
+    if (baked.search) map.parts.front().errors = measure::error_figures(*baked.measurement);
     baked.parts = without_images(map.parts);
     map.metadata = metadata(baked.facts(arguments));
     baked.bytes = encode(map, arguments);
+    check_bytes(arguments, baked);
     InterruptGuard::check();
     if (arguments.make_folders) make_folders_of(arguments.output);
     StagedFile file(arguments.output);

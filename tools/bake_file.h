@@ -16,6 +16,7 @@ struct BakedFile {
     bake::Report report;                             // their sum
     std::vector<Part> parts;                         // without their images
     std::optional<measure::Measurement> measurement; // if settings.measure
+    std::optional<plan::SearchResult> search;        // if settings.search; without `baked`
     std::vector<std::byte> bytes;                    // of the file
     double seconds = 0;                              // reading and writing included
 
@@ -25,7 +26,8 @@ struct BakedFile {
 
 // Reads, bakes, measures if asked to, and writes the map whole or not at all. Shows progress on stderr unless
 // arguments.quiet. Throws Error as read_model (import.h), bake_model (bake.h) and StagedFile (output.h) do,
-// with messages that begin with a path, and bake::Cancelled after SIGINT, SIGTERM or SIGHUP.
+// search_with_progress (bake_search.h), with messages that begin with a path, and bake::Cancelled after
+// SIGINT, SIGTERM or SIGHUP.
 BakedFile bake_file(const BakeArguments& arguments);
 
 } // namespace spa::tools

@@ -19,7 +19,7 @@ nlohmann::ordered_json missing_json(const std::vector<std::string>& names);
 // The name of an entry of either, as bytes; empty if the entry is not as the two write it.
 std::string name_of(const nlohmann::ordered_json& entry);
 
-// 16 hexadecimal digits: the hash of files and missing (as above), options (options_json) and version
+// 16 hexadecimal digits: the hash of files and missing (as above), options (request_json) and version
 // (SPA_VERSION). Equal keys, equal bytes.
 std::string bake_key(const nlohmann::ordered_json& files, const nlohmann::ordered_json& missing,
                      const nlohmann::ordered_json& options, const std::string& version);

@@ -2,6 +2,7 @@
 #include "bake_report.h"
 
 #include "bake_key.h"
+#include "search_report.h"
 #include "text.h"
 #include "validate_report.h"
 
@@ -182,6 +183,11 @@ std::string measured_text(const measure::Measurement& m) {
 
 } // namespace
 
+BakeSettings settings_of(const BakeFacts& facts) {
+    return facts.search == nullptr ? facts.arguments.settings
+                                   : decided(facts.arguments.settings, *facts.search);
+}
+
 std::string metadata(const BakeFacts& facts) {
     Json report = counts_json(facts);
     Json messages = Json::array();
@@ -193,10 +199,14 @@ std::string metadata(const BakeFacts& facts) {
         {"generator", {{"name", "spa"}, {"version", SPA_VERSION}}},
         {"key", bake_key(facts)},
         {"source", source_json(facts)},
-        {"options", options_json(facts.arguments.settings)},
+        {"options", options_json(settings_of(facts))},
         {"report", report},
         {"units", "object"},
     };
+    if (facts.search != nullptr) {
+        json["request"] = request_json(facts.arguments.settings);
+        json["search"] = search_metadata(facts.arguments.settings, *facts.search);
+    }
     if (facts.measurement != nullptr) json["figures"] = figures_json(*facts.measurement);
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -204,7 +214,7 @@ std::string metadata(const BakeFacts& facts) {
 std::string bake_key(const BakeFacts& facts) {
     const import::Report& source = facts.source.report;
     return bake_key(files_json(source.files), missing_json(source.missing),
-                    options_json(facts.arguments.settings), SPA_VERSION);
+                    request_json(facts.arguments.settings), SPA_VERSION);
 }
 
 std::vector<std::string> warnings(const BakeFacts& facts) {
@@ -221,7 +231,9 @@ Json report_json(const BakeFacts& facts, Json output, double seconds) {
     return {
         {"key", bake_key(facts)},
         {"source", source_json(facts)},
-        {"options", options_json(facts.arguments.settings)},
+        {"options", options_json(settings_of(facts))},
+        {"search",
+         facts.search == nullptr ? Json(nullptr) : search_json(facts.arguments.settings, *facts.search)},
         {"report", report},
         {"figures", facts.measurement == nullptr ? Json(nullptr) : figures_json(*facts.measurement)},
         {"output", std::move(output)},
@@ -238,7 +250,7 @@ std::string report_text(const BakeFacts& facts, std::uint64_t output_bytes, doub
                                std::to_string(bake.triangles) + " triangles");
     text += line("mesh", mesh_text(bake));
     if (facts.parts.size() > 1) text += line("parts", parts_text(facts));
-    text += line("map", options_text(facts.arguments.settings.options));
+    text += line("map", options_text(settings_of(facts).options));
     if (facts.parts.size() == 1) text += line("centre", placement_text(bake.placement));
     if (!bake.gl.empty()) text += line("gl", bake.gl);
     for (std::size_t i = 0; i < bake.layers.size(); ++i)
@@ -254,6 +266,7 @@ std::string report_text(const BakeFacts& facts, std::uint64_t output_bytes, doub
                                   std::to_string(bake.folds->searched) + " of " +
                                   std::to_string(bake.folds->edges) + " edges");
     if (facts.measurement != nullptr) text += line("measured", measured_text(*facts.measurement));
+    if (facts.search != nullptr) text += search_text(facts.arguments.settings, *facts.search);
     text += line("bytes", std::to_string(output_bytes) + " (" + byte_count(output_bytes) + ")");
     return text + line("time", fixed(seconds, 2) + " s");
 }

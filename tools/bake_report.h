@@ -8,6 +8,7 @@
 #include "../formats/import/import.h"
 #include "../libspa/bake/bake_parts.h"
 #include "../libspa/measure/measure_parts.h"
+#include "../libspa/plan/search.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -26,9 +27,14 @@ struct BakeFacts {
     const std::vector<Part>& parts;                    // the same
     const bake::Report& bake;                          // of all
     const measure::Measurement* measurement = nullptr; // null: not measured
+    const plan::SearchResult* search = nullptr;        // null: the options say all
 };
 
-// Compact JSON, UTF-8: generator, source, options, report, figures (if measured), units. The same for the
+// The settings of the map: those of the arguments, and what a search decided.
+BakeSettings settings_of(const BakeFacts& facts);
+
+// Compact JSON, UTF-8: generator, source, options, request and search (of a search), report,
+// figures (if measured), units. The same for the
 // same input and options, wherever the input lies and whatever the machine: no path, no time, no name of a
 // machine or driver.
 std::string metadata(const BakeFacts& facts);

@@ -63,6 +63,7 @@ struct Given {
     std::optional<std::uint32_t> layers;
     std::optional<bake::Frame> frame;
     std::optional<bake::Center> center;
+    GivenSearch search;
 };
 
 enum class Folds : std::uint8_t { off, on };
@@ -113,6 +114,19 @@ BakeSettings complete(const Given& given) {
     options.layers = given.layers.value_or(given.paper ? 1 : options.layers);
     options.frame = given.frame.value_or(given.paper ? bake::Frame::sphere : default_frame);
     options.center = given.center.value_or(given.paper ? bake::Center::bounds : default_center);
+    settings.search = complete_search(given.search,
+                                      {given.size || given.paper, given.color_size || given.paper,
+                                       given.depth || given.paper, given.layers || given.paper,
+                                       given.frame.has_value(), given.center.has_value()},
+                                      options);
+    if (settings.search) {
+        if (settings.parts != PartsKind::whole)
+            throw Error(ExitCode::usage,
+                        std::string("--parts ") + name(settings.parts) +
+                            ": a search for a target is over maps of one part; leave out one of the two");
+        settings.search->compress = settings.compress;
+        settings.measure = true;
+    }
     return settings;
 }
 
@@ -218,6 +232,7 @@ std::function<BakeSettings()> define_bake_settings(CLI::App& app) {
     const auto given = std::make_shared<Given>();
     BakeSettings& settings = given->settings;
     define_map_options(app, *given);
+    define_search_options(app, given->search);
     define_baker_options(app, *given);
     add_choice<Compression>(
         app, "--compress", {Compression::zstd, Compression::none},
@@ -255,6 +270,12 @@ nlohmann::ordered_json options_json(const BakeSettings& settings) {
         {"compress", name(settings.compress ? Compression::zstd : Compression::none)},
         {"measure", settings.measure},
     };
+}
+
+nlohmann::ordered_json request_json(const BakeSettings& settings) {
+    nlohmann::ordered_json options = options_json(settings);
+    if (settings.search) add_search_options(*settings.search, options);
+    return options;
 }
 
 } // namespace spa::tools

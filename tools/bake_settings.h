@@ -5,12 +5,14 @@
 
 #include "arguments.h"
 #include "source_asset.h"
+#include "search_settings.h"
 
 #include "../libspa/bake/bake_options.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace spa::tools {
@@ -23,6 +25,7 @@ struct BakeSettings {
     bool measure = false;
 
     [[nodiscard]] Division division() const { return {parts, max_parts, options.layers}; }
+    std::optional<plan::SearchRequest> search; // what of `options` a target decides
 };
 
 // Adds the options to the parser. The function returned is called after parsing and fills in what was not
@@ -32,6 +35,8 @@ std::function<BakeSettings()> define_bake_settings(CLI::App& app);
 // Every option that the bytes of the output depend on, effective value, under the name that it has on the
 // command line and as text or number that the command line takes.
 nlohmann::ordered_json options_json(const BakeSettings& settings);
+// The same as it was asked for: with a search its target instead of what it decides. Without one the same.
+nlohmann::ordered_json request_json(const BakeSettings& settings);
 
 // The size of a map as --size takes it: "256" (octahedral, cells a side) or "640x480".
 std::string size_text(const Grid& grid);

@@ -7,6 +7,7 @@
 #include "map_file.h"
 #include "output.h"
 #include "picture.h"
+#include "search_report.h"
 #include "thumbnail.h"
 #include "validate_report.h"
 
@@ -41,10 +42,13 @@ void bake(const ChildTask& task, AssetResult& result) {
     remember_sources(arguments.output, baked.source.asset.report, bake_key(facts), started);
     result.status = AssetStatus::baked;
     result.warnings = warnings(facts);
+    if (baked.search && !baked.search->met)
+        result.warnings.push_back(unmet_text(arguments.settings, *baked.search));
     for (const import::SourceFile& file : baked.source.asset.report.files)
         result.facts.source_bytes += file.bytes;
     result.facts.triangles = baked.report.triangles;
     result.facts.bytes = baked.bytes.size();
+    result.facts.options = options_json(settings_of(facts)).dump();
     if (baked.measurement) result.facts.figures = figures_json(*baked.measurement).dump();
 }
 
@@ -114,6 +118,7 @@ std::string run_child(const ChildTask& task) {
         {"source_bytes", result.facts.source_bytes},
         {"triangles", result.facts.triangles},
         {"bytes", result.facts.bytes},
+        {"options", result.facts.options},
         {"figures", result.facts.figures},
         {"interrupt", outcome.interrupt},
         {"out_of_memory", outcome.out_of_memory},
@@ -140,6 +145,7 @@ ChildOutcome parse_outcome(const std::string& bytes) {
         json.at("source_bytes").get_to(result.facts.source_bytes);
         json.at("triangles").get_to(result.facts.triangles);
         json.at("bytes").get_to(result.facts.bytes);
+        json.at("options").get_to(result.facts.options);
         json.at("figures").get_to(result.facts.figures);
         json.at("interrupt").get_to(outcome.interrupt);
         json.at("out_of_memory").get_to(outcome.out_of_memory);

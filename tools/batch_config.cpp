@@ -43,7 +43,7 @@ std::string text_of(const Json& value, const SettingName& setting, const std::st
         return value.get<bool>() ? "true" : "false";
     }
     if (value.is_string()) return value.get<std::string>();
-    if (!value.is_number_integer()) refuse(where, "is a text or a whole number");
+    if (!value.is_number()) refuse(where, "is a text or a number");
     return value.dump();
 }
 

@@ -30,7 +30,9 @@ Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr)
 Json asset_json(const BatchReport& report, std::size_t i) {
     const BatchAsset& asset = report.assets[i];
     const AssetResult& result = report.results[i];
-    const bake::Options& options = report.settings.of(asset.name).options;
+    // Of a map that is there its own; else those that were asked for.
+    Json options = result.facts.options.empty() ? options_json(report.settings.of(asset.name))
+                                                : Json::parse(result.facts.options);
     return {
         {"source", asset.name},
         {"path", asset.path.string()},
@@ -48,8 +50,8 @@ Json asset_json(const BatchReport& report, std::size_t i) {
         {"source_bytes", number_or_null(result.facts.source_bytes)},
         {"triangles", number_or_null(result.facts.triangles)},
         {"output_bytes", number_or_null(result.facts.bytes)},
-        {"size", size_text(options.grid)},
-        {"layers", options.layers},
+        {"size", options["size"]},
+        {"layers", options["layers"]},
         {"figures", result.facts.figures.empty() ? Json(nullptr) : Json::parse(result.facts.figures)},
     };
 }

@@ -45,7 +45,8 @@ std::timespec now() {
 // Of a map's metadata, as far as they say what it was made from.
 struct Recorded {
     std::string key;
-    Json files, missing, options;
+    Json files, missing;
+    Json request; // the options as they were asked for
     std::string version;
     Json facts; // all of the metadata
 };
@@ -60,15 +61,17 @@ std::optional<Recorded> parse_recorded(const std::string& metadata) {
     Json json = Json::parse(metadata, nullptr, false);
     const Json* key = member(json, "key", Json::value_t::string);
     const Json* source = member(json, "source", Json::value_t::object);
-    const Json* options = member(json, "options", Json::value_t::object);
+    // Of a search what it was given; else all options.
+    const Json* request = member(json, "request", Json::value_t::object);
+    if (request == nullptr) request = member(json, "options", Json::value_t::object);
     const Json* generator = member(json, "generator", Json::value_t::object);
-    if (key == nullptr || source == nullptr || options == nullptr || generator == nullptr) return {};
+    if (key == nullptr || source == nullptr || request == nullptr || generator == nullptr) return {};
     const Json* files = member(*source, "files", Json::value_t::array);
     const Json* missing = member(*source, "missing", Json::value_t::array);
     const Json* version = member(*generator, "version", Json::value_t::string);
     if (files == nullptr || files->empty() || missing == nullptr || version == nullptr) return {};
-    Recorded recorded{*key, *files, *missing, *options, *version, {}};
-    if (bake_key(recorded.files, recorded.missing, recorded.options, recorded.version) != recorded.key)
+    Recorded recorded{*key, *files, *missing, *request, *version, {}};
+    if (bake_key(recorded.files, recorded.missing, recorded.request, recorded.version) != recorded.key)
         return {};
     recorded.facts = std::move(json);
     return recorded;
@@ -172,6 +175,7 @@ MapFacts facts_of(const Recorded& recorded, const fs::path& output) {
     MapFacts facts;
     for (const Json& file : recorded.files) facts.source_bytes += number_of(file, "bytes");
     facts.triangles = number_of(recorded.facts["source"], "triangles");
+    if (recorded.facts.contains("options")) facts.options = recorded.facts["options"].dump();
     if (recorded.facts.contains("figures")) facts.figures = recorded.facts["figures"].dump();
     std::error_code error;
     facts.bytes = fs::file_size(output, error);
@@ -205,7 +209,7 @@ MapState judge_map(const fs::path& output, const fs::path& path, const BakeSetti
     const std::optional<Recorded> recorded = parse_recorded(metadata);
     if (!recorded) return stale(BakeReason::damaged);
     if (recorded->version != SPA_VERSION) return stale(BakeReason::version);
-    if (recorded->options != options_json(settings)) return stale(BakeReason::options);
+    if (recorded->request != request_json(settings)) return stale(BakeReason::options);
 
     const std::timespec started = now();
     const std::optional<std::vector<Source>> sources = find_sources(*recorded, path);

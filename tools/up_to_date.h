@@ -37,6 +37,7 @@ enum class Freshness : std::uint8_t {
 // What the metadata of a map say about it, for reports.
 struct MapFacts {
     std::uint64_t source_bytes = 0, triangles = 0, bytes = 0;
+    std::string options; // JSON, effective values; empty: not known
     std::string figures; // JSON; empty if it was not measured
 };
 

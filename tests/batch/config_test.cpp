@@ -78,7 +78,7 @@ TEST(BatchConfig, ErrorsNameThePlace) {
     has(R"({"options": {"sise": 3}})", "no option 'sise' of a bake; did you mean 'size'");
     has(R"({"options": {"output": "x"}})", "no option 'output'");
     has(R"({"options": {"size": 33}})", "options: --size: '33' is odd");
-    has(R"({"options": {"size": 1.5}})", "options.size: is a text or a whole number");
+    has(R"({"options": {"size": 1.5}})", "options: --size: '1.5' is not a whole number");
     has(R"({"options": {"measure": "yes"}})", "options.measure: is true or false");
     has(R"({"patterns": {}})", "patterns: is not an array");
     has(R"({"patterns": [{"options": {}}]})", "patterns[0]: has no 'match'");
