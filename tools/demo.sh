@@ -52,6 +52,18 @@ else
     run $spa inspect --sheet $out/boot.png $out/boot.spa >/dev/null
 fi
 
+# Where npm could be had (tools/install_page_library.sh).
+report=
+if $spa help report >/dev/null 2>&1; then
+    report="
+  a page about it    $PWD/$out/report.html"
+    if is_newer $out/report.html $out/boot.spa $spa; then
+        echo "= $out/report.html is up to date"
+    else
+        run $spa report $out/boot.spa -o $out/report.html
+    fi
+fi
+
 cat <<END
 
 Here is everything:
@@ -59,5 +71,5 @@ Here is everything:
   the sample boot    $PWD/$out/boot.glb
   its spherical map  $PWD/$out/boot.spa
   its maps as one    $PWD/$out/boot.png
-  picture
+  picture$report
 END

@@ -21,13 +21,18 @@ Json member(const Json& json, const char* key) {
 } // namespace
 
 std::filesystem::path source_beside(const MapFile& file) {
+    if (file.name == "-") return {};
+    return source_in(std::filesystem::path(file.name).parent_path(), file);
+}
+
+std::filesystem::path source_in(const std::filesystem::path& folder, const MapFile& file) {
     const Json name = member(member(parse_metadata(file.map()), "source"), "name");
-    if (file.name == "-" || !name.is_string()) return {};
+    if (!name.is_string()) return {};
     // A name with a folder in it could point anywhere; the system ends one at a zero.
     const std::filesystem::path plain = name.get<std::string>();
     if (plain.empty() || plain.filename() != plain || plain.string().find('\0') != std::string::npos)
         return {};
-    std::filesystem::path path = std::filesystem::path(file.name).parent_path() / plain;
+    std::filesystem::path path = folder / plain;
     std::error_code ignored;
     return std::filesystem::is_regular_file(path, ignored) ? path : std::filesystem::path{};
 }

@@ -16,6 +16,8 @@ namespace spa::tools {
 // Where the metadata's source lies if it lies beside the file: same folder, the name alone. Empty if there is
 // none, or the file is standard input.
 std::filesystem::path source_beside(const MapFile& file);
+// The same in another folder.
+std::filesystem::path source_in(const std::filesystem::path& folder, const MapFile& file);
 
 // Which of the files that the model was read from are not those that the map was baked from, by name. None if
 // the metadata does not say what it was baked from.

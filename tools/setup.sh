@@ -11,7 +11,8 @@ set -eu
 packages_of() {
     case $1 in
     build)
-        # Compilers and build, then libraries. The last three let EGL and OSMesa draw without a GPU.
+        # Compilers and build, then libraries. The last three let EGL and OSMesa draw without a GPU. npm is for
+        # what the page of spa report draws with (install_page_library.sh).
         cat <<'LIST'
 g++
 cmake
@@ -36,6 +37,8 @@ libvulkan-dev
 libxxhash-dev
 libzstd-dev
 nlohmann-json3-dev
+nodejs:node
+npm:npm
 libegl1
 libegl-mesa0
 libgl1-mesa-dri
@@ -47,8 +50,6 @@ LIST
 chromium
 gnuplot-nox
 libgtest-dev
-nodejs:node
-npm:npm
 python3:python3
 python3-yaml
 zstd
@@ -152,6 +153,14 @@ run_with_retries() {
     return 1
 }
 
+# What is not Debian's: into build/npm, which is found there.
+install_others() {
+    folder=$(dirname -- "$0")
+    for group in "$@"; do
+        if [ "$group" = build ]; then sh "$folder/install_page_library.sh" "$folder/../build/npm"; fi
+    done
+}
+
 [ $# -gt 0 ] || set -- build
 entries=
 for group in "$@"; do
@@ -162,12 +171,16 @@ if ! command -v dpkg-query >/dev/null 2>&1 || ! command -v apt-get >/dev/null 2>
     echo "setup.sh: this is not a Debian machine, so nothing is installed; needed are the equivalents of:" >&2
     # shellcheck disable=SC2086 # a list of words
     printf '  %s\n' $entries | sed 's/:.*//' >&2
+    install_others "$@"
     exit 0
 fi
 
 # shellcheck disable=SC2086 # a list of words
 missing=$(missing_of $entries)
-[ -n "$missing" ] || exit 0
+if [ -z "$missing" ]; then
+    install_others "$@"
+    exit 0
+fi
 
 as_root=
 if [ "$(id -u)" -ne 0 ]; then
@@ -195,3 +208,4 @@ if ! run_with_retries $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o
     echo "setup.sh: see its message above; the package lists need Debian 12 (bookworm)" >&2
     exit 1
 fi
+install_others "$@"

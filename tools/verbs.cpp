@@ -15,6 +15,9 @@ Verb compare_verb();
 #ifdef SPA_HAS_RENDER // the build has Vulkan
 Verb render_verb();
 #endif
+#ifdef SPA_HAS_REPORT // the library that draws its plots was found
+Verb report_verb();
+#endif
 Verb sample_verb();
 Verb bench_verb();
 Verb help_verb();
@@ -24,6 +27,9 @@ std::span<const Verb> verbs() {
                                          extract_verb(), validate_verb(), compare_verb(),
 #ifdef SPA_HAS_RENDER
                                          render_verb(),
+#endif
+#ifdef SPA_HAS_REPORT
+                                         report_verb(),
 #endif
                                          sample_verb(),  bench_verb(),    help_verb()};
     return table;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# The page of `spa batch` as a header: batch.html with its style and script in their places and their hashes in
+# Pages for browsers as headers: their HTML with styles and scripts in their places and the hashes of those in
 # the page's Content-Security-Policy, which lets nothing else run.
 
 # spa_base64_sha256(TEXT OUT): as Content-Security-Policy writes it.
@@ -28,19 +28,43 @@ function(spa_base64_sha256 text out)
 endfunction()
 
 set(page_sources ${CMAKE_CURRENT_LIST_DIR})
-file(READ ${page_sources}/batch.html BATCH_PAGE)
-file(READ ${page_sources}/batch.css BATCH_STYLE)
-file(READ ${page_sources}/batch.js BATCH_SCRIPT)
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page_sources}/batch.html ${page_sources}/batch.css
-  ${page_sources}/batch.js)
-spa_base64_sha256("${BATCH_STYLE}" BATCH_STYLE_HASH)
-spa_base64_sha256("${BATCH_SCRIPT}" BATCH_SCRIPT_HASH)
-foreach(name STYLE_HASH SCRIPT_HASH STYLE SCRIPT)
-  string(REPLACE "@BATCH_${name}@" "${BATCH_${name}}" BATCH_PAGE "${BATCH_PAGE}")
-endforeach()
-string(FIND "${BATCH_PAGE}" "@BATCH_DATA@" data)
-string(SUBSTRING "${BATCH_PAGE}" 0 ${data} BATCH_PAGE_BEGIN)
-string(LENGTH "@BATCH_DATA@" length)
-math(EXPR data "${data} + ${length}")
-string(SUBSTRING "${BATCH_PAGE}" ${data} -1 BATCH_PAGE_END)
-configure_file(${page_sources}/batch_page_text.h.in ${CMAKE_CURRENT_BINARY_DIR}/page/batch_page_text.h @ONLY)
+
+# spa_page(NAME STYLE file... SCRIPT file... [LIBRARY file...] [LICENSES file...]): makes page/NAME_page_text.h of
+# NAME.html. Names of files are relative to this folder or absolute. Of each kind the files follow one another;
+# LIBRARY is a script of its own, for what others wrote, and LICENSES their terms, as text.
+function(spa_page name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "STYLE;SCRIPT;LIBRARY;LICENSES")
+  file(READ ${page_sources}/${name}.html page)
+  set(read ${page_sources}/${name}.html)
+  foreach(kind IN ITEMS STYLE SCRIPT LIBRARY LICENSES)
+    set(text "")
+    foreach(file IN LISTS arg_${kind})
+      cmake_path(ABSOLUTE_PATH file BASE_DIRECTORY ${page_sources})
+      list(APPEND read ${file})
+      file(READ ${file} piece)
+      string(APPEND text "${piece}")
+    endforeach()
+    if(kind STREQUAL "LIBRARY")
+      # Names a file that is not there.
+      string(REGEX REPLACE "\n//# sourceMappingURL=[^\n]*" "" text "${text}")
+    elseif(kind STREQUAL "LICENSES")
+      string(REPLACE "&" "&amp;" text "${text}")
+      string(REPLACE "<" "&lt;" text "${text}")
+    endif()
+    if(text MATCHES "</[sS][cC][rR][iI][pP][tT]|</[sS][tT][yY][lL][eE]|\\)page\"")
+      message(FATAL_ERROR "${arg_${kind}}: holds the end of what it is put into")
+    endif()
+    spa_base64_sha256("${text}" hash)
+    string(REPLACE "@${kind}_HASH@" "${hash}" page "${page}")
+    string(REPLACE "@${kind}@" "${text}" page "${page}")
+  endforeach()
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${read})
+  string(FIND "${page}" "@DATA@" data)
+  string(SUBSTRING "${page}" 0 ${data} PAGE_BEGIN)
+  math(EXPR data "${data} + 6")
+  string(SUBSTRING "${page}" ${data} -1 PAGE_END)
+  set(PAGE_NAME ${name})
+  configure_file(${page_sources}/page_text.h.in ${CMAKE_CURRENT_BINARY_DIR}/page/${name}_page_text.h @ONLY)
+endfunction()
+
+spa_page(batch STYLE base.css batch.css SCRIPT text.js batch.js)
