@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake_file.h"
 
+#include "asset_node.h"
 #include "interrupt.h"
 #include "map_file.h"
 #include "output.h"
@@ -37,9 +38,16 @@ void check_inputs(const BakeArguments& arguments, const import::Report& source) 
                       arguments.make_folders ? OutputFolder::is_made : OutputFolder::is_there);
 }
 
-spa::import::Result read_asset(const BakeArguments& arguments) {
+void read_asset(const BakeArguments& arguments, BakedFile& baked) {
     const SlowStep step("reading " + arguments.input.filename().string(), arguments.quiet);
-    return spa::import::read_model(arguments.input, {.follow_links = arguments.follow_links});
+    std::optional<std::string> node = arguments.node;
+    if (arguments.settings.node) node = std::to_string(*arguments.settings.node);
+    AssetModel asset = read_asset_model(arguments.input, node, {.follow_links = arguments.follow_links});
+    baked.source = std::move(asset.source);
+    baked.settings = arguments.settings;
+    baked.settings.node = asset.node;
+    baked.node_name = asset.node_name;
+    baked.node_warning = asset.warning;
 }
 
 bake::Result bake_with_progress(const BakeArguments& arguments, const Model& model) {
@@ -83,7 +91,7 @@ std::vector<std::byte> encode(const SphericalMap& map, const BakeArguments& argu
 } // namespace
 
 BakeFacts BakedFile::facts(const BakeArguments& arguments) const {
-    return {arguments, source, report, measurement ? &*measurement : nullptr};
+    return {arguments, settings, node_name, source, report, measurement ? &*measurement : nullptr};
 }
 
 BakedFile bake_file(const BakeArguments& arguments) {
@@ -91,7 +99,7 @@ BakedFile bake_file(const BakeArguments& arguments) {
     const ThreadLimit threads(arguments.settings.options.threads);
     check_inputs(arguments, {});
     BakedFile baked;
-    baked.source = read_asset(arguments);
+    read_asset(arguments, baked);
     check_inputs(arguments, baked.source.report);
 
     const InterruptGuard guard;

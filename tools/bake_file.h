@@ -6,12 +6,16 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace spa::tools {
 
 struct BakedFile {
     import::Result source;
+    BakeSettings settings;    // the arguments', with the node that they name
+    std::string node_name;    // of it
+    std::string node_warning; // about the choice of it; empty: none
     bake::Report report;
     std::optional<measure::Measurement> measurement; // if settings.measure
     std::vector<std::byte> bytes;                    // of the file

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 Json source_json(const BakeFacts& facts) {
     const import::Report& report = facts.source.report;
     const import::SourceFile& asset = report.files.front();
-    return {
+    Json json = {
         {"name", asset.name},
         {"format", report.format},
         {"xxh3", hex64(asset.xxh3)},
@@ -28,6 +28,8 @@ Json source_json(const BakeFacts& facts) {
         {"materials", facts.source.model.materials.size()},
         {"textures", facts.source.model.textures.size()},
     };
+    if (facts.settings.node) json["node"] = facts.node_name;
+    return json;
 }
 
 Json layers_json(const bake::Report& bake) {
@@ -123,7 +125,7 @@ std::string metadata(const BakeFacts& facts) {
         {"generator", {{"name", "spa"}, {"version", SPA_VERSION}}},
         {"key", bake_key(facts)},
         {"source", source_json(facts)},
-        {"options", options_json(facts.arguments.settings)},
+        {"options", options_json(facts.settings)},
         {"report", report},
         {"units", "object"},
     };
@@ -133,8 +135,8 @@ std::string metadata(const BakeFacts& facts) {
 
 std::string bake_key(const BakeFacts& facts) {
     const import::Report& source = facts.source.report;
-    return bake_key(files_json(source.files), missing_json(source.missing),
-                    options_json(facts.arguments.settings), SPA_VERSION);
+    return bake_key(files_json(source.files), missing_json(source.missing), options_json(facts.settings),
+                    SPA_VERSION);
 }
 
 std::vector<std::string> warnings(const BakeFacts& facts) {
@@ -150,7 +152,7 @@ Json report_json(const BakeFacts& facts, Json output, double seconds) {
     return {
         {"key", bake_key(facts)},
         {"source", source_json(facts)},
-        {"options", options_json(facts.arguments.settings)},
+        {"options", options_json(facts.settings)},
         {"report", report},
         {"figures", facts.measurement == nullptr ? Json(nullptr) : figures_json(*facts.measurement)},
         {"output", std::move(output)},
@@ -165,6 +167,9 @@ std::string report_text(const BakeFacts& facts, std::uint64_t output_bytes, doub
     text += line("source", source.files.front().name + ", " + source.format + ", " +
                                std::to_string(facts.source.model.positions.size()) + " vertices, " +
                                std::to_string(bake.triangles) + " triangles");
+    if (facts.settings.node)
+        text += line("node", std::to_string(*facts.settings.node) +
+                                 (facts.node_name.empty() ? "" : ", " + facts.node_name));
     text += line("mesh", mesh_text(bake));
     text += line("map", options_text(facts.arguments.settings.options));
     if (!bake.gl.empty()) text += line("gl", bake.gl);

@@ -9,7 +9,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace spa::tools {
@@ -18,6 +20,9 @@ struct BakeSettings {
     bake::Options options;
     bool compress = true; // zstd
     bool measure = false;
+    // Of the asset only what this node draws, in its space: an index into the nodes as import::read_scene
+    // lists them. No option of define_bake_settings: it means something for one asset alone.
+    std::optional<std::uint32_t> node;
 };
 
 // Adds the options to the parser. The function returned is called after parsing and fills in what was not

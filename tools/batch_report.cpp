@@ -30,7 +30,7 @@ Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr)
 Json asset_json(const BatchReport& report, std::size_t i) {
     const BatchAsset& asset = report.assets[i];
     const AssetResult& result = report.results[i];
-    const bake::Options& options = report.settings.of(asset.name).options;
+    const bake::Options& options = report.settings.of(asset.name, asset.settings).options;
     return {
         {"source", asset.name},
         {"path", asset.path.string()},
@@ -50,6 +50,7 @@ Json asset_json(const BatchReport& report, std::size_t i) {
         {"output_bytes", number_or_null(result.facts.bytes)},
         {"size", size_text(options.grid)},
         {"layers", options.layers},
+        {"node", asset.node ? Json(*asset.node) : Json(nullptr)},
         {"figures", result.facts.figures.empty() ? Json(nullptr) : Json::parse(result.facts.figures)},
     };
 }
@@ -107,6 +108,7 @@ Json batch_json(const BatchReport& report) {
     return {
         {"generator", {{"name", "spa"}, {"version", SPA_VERSION}}},
         {"inputs", arguments.query.inputs},
+        {"plan", arguments.plan.empty() ? Json(nullptr) : Json(arguments.plan.string())},
         {"output", arguments.query.output.string()},
         {"shard", shard ? Json{{"index", shard->index}, {"count", shard->count}} : Json(nullptr)},
         {"jobs", arguments.jobs},

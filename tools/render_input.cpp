@@ -37,12 +37,6 @@ std::string suggestion(const std::string& given, const std::vector<std::string>&
     return names.size() > most_listed ? text + ", ..." : text;
 }
 
-bool is_below(const Scene& scene, std::uint32_t node, std::uint32_t above) {
-    for (node = scene.nodes[node].parent; node != no_index; node = scene.nodes[node].parent)
-        if (node == above) return true;
-    return false;
-}
-
 void check_apart(const Scene& scene, const std::vector<PlacedMap>& maps) {
     for (const PlacedMap& map : maps)
         for (const PlacedMap& other : maps)
@@ -160,19 +154,30 @@ std::vector<PlacedMap> place_maps(const Scene& scene, const RenderArguments& arg
     return maps;
 }
 
+bool is_below(const Scene& scene, std::uint32_t node, std::uint32_t above) {
+    for (node = scene.nodes[node].parent; node != no_index; node = scene.nodes[node].parent)
+        if (node == above) return true;
+    return false;
+}
+
+render::MapPlacement placement(std::uint32_t node, const SphericalMap* map,
+                               const RenderArguments& arguments) {
+    render::MapPlacement result;
+    result.node = node;
+    result.map = map;
+    result.layers = arguments.layers;
+    result.test_points = arguments.method != MapMethod::projective;
+    result.dropped = map == nullptr;
+    return result;
+}
+
 std::vector<render::MapPlacement> placements(const std::vector<PlacedMap>& maps,
+                                             const std::vector<std::uint32_t>& dropped,
                                              const RenderArguments& arguments) {
     std::vector<render::MapPlacement> all;
-    for (const PlacedMap& map : maps) {
-        for (const std::uint32_t node : map.nodes) {
-            render::MapPlacement placement;
-            placement.node = node;
-            placement.map = &map.file.map();
-            placement.layers = arguments.layers;
-            placement.test_points = arguments.method != MapMethod::projective;
-            all.push_back(placement);
-        }
-    }
+    for (const PlacedMap& map : maps)
+        for (const std::uint32_t node : map.nodes) all.push_back(placement(node, &map.file.map(), arguments));
+    for (const std::uint32_t node : dropped) all.push_back(placement(node, nullptr, arguments));
     return all;
 }
 

@@ -32,8 +32,15 @@ std::vector<PlacedMap> place_maps(const Scene& scene, const RenderArguments& arg
 // elsewhere, or are of another size, than the node's triangles in the node's own space. O(triangles * maps).
 std::vector<std::string> misfits(const Scene& scene, const std::vector<PlacedMap>& maps);
 
-// For the renderer; refers to `maps`.
+// Whether `node` lies below `above`. O(depth).
+bool is_below(const Scene& scene, std::uint32_t node, std::uint32_t above);
+
+// A map, or nothing (null), in the place of a node, as the arguments have maps traced.
+render::MapPlacement placement(std::uint32_t node, const SphericalMap* map, const RenderArguments& arguments);
+
+// For the renderer; refers to `maps`. dropped: nodes in whose place is nothing.
 std::vector<render::MapPlacement> placements(const std::vector<PlacedMap>& maps,
+                                             const std::vector<std::uint32_t>& dropped,
                                              const RenderArguments& arguments);
 
 // The scene's camera of that name, or of that number; the first without an argument, and where there is none

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "asset_node.h"
 #include "heat_sheet.h"
 #include "interrupt.h"
 #include "map_source.h"
@@ -108,7 +109,10 @@ const nlohmann::ordered_json& bake_option(const nlohmann::ordered_json& metadata
 spa::import::Result read_source(const Arguments& arguments, const MapFile& file,
                                 const std::filesystem::path& path) {
     try {
-        return spa::import::read_model(path, {.follow_links = arguments.follow_links});
+        const std::optional<std::uint32_t> node = source_node(file);
+        return read_asset_model(path, node ? std::optional(std::to_string(*node)) : std::nullopt,
+                                {.follow_links = arguments.follow_links})
+            .source;
     } catch (const Error& error) {
         if (!arguments.source.empty()) throw;
         throw Error(error.code(), std::string(error.what()) + " (the container " + file.name +

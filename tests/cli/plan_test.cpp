@@ -98,10 +98,10 @@ TEST(PlanVerb, WrongArgumentsAreRefusedBeforeAnyWork) {
     EXPECT_EQ(folder.names(), std::vector<std::string>{"scene.glb"});
 }
 
-class RenderPlan : public VulkanVerbTest {};
+class RenderPredicted : public VulkanVerbTest {};
 
 // The figure that a plan rests on, against pictures.
-TEST_F(RenderPlan, PredictsWhatARenderedPictureLoses) {
+TEST_F(RenderPredicted, PredictsWhatARenderedPictureLoses) {
     const TemporaryFolder folder;
     make_scene(folder, "corner", "2");
     const std::vector<std::string> picture{"--size", "192x108", "--samples", "32", "--quiet"};
