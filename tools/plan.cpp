@@ -82,8 +82,8 @@ void plan_file(const PlanArguments& arguments) {
             return interrupt_signal() == 0;
         });
     }
-    const PlanFacts facts{arguments, source.report, source.scene.model.triangles.size(), plan};
-    write(arguments.output, json_text(plan_json(facts)));
+    const ScenePlanFacts facts{arguments, source.report, source.scene.model.triangles.size(), plan};
+    write(arguments.output, json_text(scene_plan_json(facts)));
     guard.reset();
     for (const std::string& warning : source.report.warnings)
         std::cerr << "spa: warning: " << warning << '\n';

@@ -52,7 +52,7 @@ std::string lower(std::string text) {
 }
 
 // By node. Names that differ in the case of letters alone are one to some file systems.
-std::map<std::uint32_t, std::string> map_paths(const PlanFacts& facts) {
+std::map<std::uint32_t, std::string> map_paths(const ScenePlanFacts& facts) {
     const std::string folder = facts.arguments.output.stem().string() + ".maps/";
     std::map<std::uint32_t, std::string> paths;
     std::set<std::string> taken;
@@ -144,7 +144,7 @@ std::string decision_text(const ObjectPlan& object) {
 
 } // namespace
 
-Json plan_json(const PlanFacts& facts) {
+Json scene_plan_json(const ScenePlanFacts& facts) {
     const PlanArguments& arguments = facts.arguments;
     const plan::PlanOptions& options = arguments.options;
     Json files = Json::array();
@@ -168,7 +168,7 @@ Json plan_json(const PlanFacts& facts) {
             {"expected", totals_json(facts.plan)}};
 }
 
-Json plan_report_json(const PlanFacts& facts) {
+Json plan_report_json(const ScenePlanFacts& facts) {
     const plan::ScenePlan& plan = facts.plan;
     return {
         {"plan", facts.arguments.output.string()},
@@ -186,7 +186,7 @@ Json plan_report_json(const PlanFacts& facts) {
         {"seconds", {{"trace", plan.trace_seconds}, {"trials", plan.trial_seconds}, {"all", plan.seconds}}}};
 }
 
-std::string plan_report_text(const PlanFacts& facts) {
+std::string plan_report_text(const ScenePlanFacts& facts) {
     const plan::ScenePlan& plan = facts.plan;
     std::vector<const ObjectPlan*> order;
     for (const ObjectPlan& object : plan.objects) order.push_back(&object);

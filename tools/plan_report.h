@@ -13,7 +13,7 @@
 
 namespace spa::tools {
 
-struct PlanFacts {
+struct ScenePlanFacts {
     const PlanArguments& arguments;
     const import::Report& source;
     std::uint64_t triangles = 0; // of the scene
@@ -21,10 +21,10 @@ struct PlanFacts {
 };
 
 // The same for the same scene and arguments.
-nlohmann::ordered_json plan_json(const PlanFacts& facts);
+nlohmann::ordered_json scene_plan_json(const ScenePlanFacts& facts);
 
-nlohmann::ordered_json plan_report_json(const PlanFacts& facts);
+nlohmann::ordered_json plan_report_json(const ScenePlanFacts& facts);
 // A table, largest first, and the sums.
-std::string plan_report_text(const PlanFacts& facts);
+std::string plan_report_text(const ScenePlanFacts& facts);
 
 } // namespace spa::tools
