@@ -120,8 +120,11 @@ private:
         if (group.shape.star_shaped || group.shape.captured >= nearly_all) {
             TrialSeries single;
             single.settings.layers = 1;
-            for (const std::uint32_t size : first_trials)
-                if (size <= options_.largest_size) trials_.add(group.members, model, size, single);
+            const std::uint32_t size = group.series.front().largest();
+            trials_.add(group.members, model, size, single);
+            constexpr double as_good = 1.2;
+            if (single.image_error(size) > as_good * group.series.front().image_error(size)) return;
+            trials_.add(group.members, model, first_trials[0], single);
             group.series.push_back(std::move(single));
         }
     }
@@ -221,24 +224,41 @@ private:
         return plan;
     }
 
-    // The first size at which all that is not dropped as maps is as exact as the plan.
-    void compare_one_size(ScenePlan& plan) const {
+    struct OneSize {
+        std::uint32_t size = 0;
+        std::uint64_t bytes = 0;
+        double image_error = 0;
+    };
+
+    // The first size at which maps of all that is not dropped, or of what is a map in the plan, are as exact
+    // as the plan; or the largest.
+    [[nodiscard]] OneSize one_size(bool of_maps, double image_error) const {
+        OneSize one;
         for (const std::uint32_t size : sizes_) {
-            plan.one_size = size;
-            plan.bytes_one_size = 0;
-            plan.image_error_one_size = 0;
+            one = {size, 0, 0};
             for (const Group& group : groups_) {
                 if (group.chosen.decision == Decision::drop) {
-                    plan.image_error_one_size += error_without(group);
-                } else if (!group.mappable) {
-                    plan.bytes_one_size += group.bytes_triangles;
+                    one.image_error += error_without(group);
+                } else if (!group.mappable || (of_maps && group.chosen.decision != Decision::map)) {
+                    one.bytes += group.bytes_triangles;
                 } else {
-                    plan.bytes_one_size += group.series.front().bytes(size);
-                    plan.image_error_one_size += group.series.front().image_error(size);
+                    one.bytes += group.series.front().bytes(size);
+                    one.image_error += group.series.front().image_error(size);
                 }
             }
-            if (plan.image_error_one_size <= plan.image_error) return;
+            if (one.image_error <= image_error) break;
         }
+        return one;
+    }
+
+    void compare_one_size(ScenePlan& plan) const {
+        const OneSize all = one_size(false, plan.image_error), maps = one_size(true, plan.image_error);
+        plan.one_size = all.size;
+        plan.bytes_one_size = all.bytes;
+        plan.image_error_one_size = all.image_error;
+        plan.one_size_of_maps = maps.size;
+        plan.bytes_one_size_of_maps = maps.bytes;
+        plan.image_error_one_size_of_maps = maps.image_error;
     }
 
     [[nodiscard]] ObjectPlan object_plan(const Group& group, std::size_t member) const {
