@@ -119,6 +119,7 @@ Json totals_json(const plan::ScenePlan& plan) {
     return {{"bytes", plan.bytes},
             {"bytes_triangles", plan.bytes_triangles},
             {"image_error", plan.image_error},
+            {"errors_together", plan.errors_together},
             {"image_error_deviation", plan.image_error_deviation},
             {"bytes_one_size", plan.bytes_one_size},
             {"image_error_one_size", plan.image_error_one_size},
