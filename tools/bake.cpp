@@ -26,6 +26,7 @@ nlohmann::ordered_json output_json(const BakeArguments& arguments, const std::ve
 void bake_asset(const BakeArguments& arguments) {
     const BakedFile baked = bake_file(arguments);
     const BakeFacts facts = baked.facts(arguments);
+    if (!baked.source.node_warning.empty()) std::cerr << "spa: warning: " << baked.source.node_warning << '\n';
     for (const std::string& warning : warnings(facts)) std::cerr << "spa: warning: " << warning << '\n';
     print(arguments.format == ReportFormat::json
               ? json_text(report_json(facts, output_json(arguments, baked.bytes), baked.seconds))
@@ -60,6 +61,7 @@ Verb bake_verb() {
                     "$ spa bake boot.glb -o boot.spa --paper --baker orbit\n"
                     "$ spa bake boot.glb -o boot.spa --measure\n"
                     "$ spa bake boot.glb -o boot.spa --target-error 0.01 --max-bytes 256K\n"
+                    "$ spa bake room.glb --node lamp -o lamp.spa\n"
                     "$ spa bake boot.glb -o boot.spa --format json | jq .report",
         .see_also = "spa batch, spa inspect, spa extract, spa sample",
         .define = [](CLI::App& app) -> std::function<void()> {

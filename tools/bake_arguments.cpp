@@ -12,6 +12,12 @@ std::function<BakeArguments()> define_bake_arguments(CLI::App& app) {
     const auto threads = std::make_shared<unsigned>(0);
     add_path(app, "IN", "IN", "The asset: glTF, GLB, OBJ, PLY, STL or OFF", arguments->input)->required();
     add_path(app, "-o,--output", "OUT.spa", "The file to write", arguments->output)->required();
+    add_text(
+        app, "--node", "NAME|INDEX",
+        "Bake only what this node of the asset and the nodes below it draw, in the node's own space: the "
+        "map that 'spa render --map NAME=OUT.spa' puts in its place. A whole number is the node's index, "
+        "anything else its name",
+        [arguments](const std::string& text) { arguments->node = text; });
     const std::function<BakeSettings()> settings = define_bake_settings(app);
     add_threads(app, "Threads to use; 0 means one a core", *threads);
     add_follow_links(app, arguments->follow_links);

@@ -6,11 +6,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
 
 namespace spa::tools {
 
 struct BakeArguments {
     std::filesystem::path input, output;
+    std::optional<std::string> node; // --node as given; bake_file finds out which it is
     BakeSettings settings;
     bool make_folders = false; // those of the output that are missing; else they must be there
     bool follow_links = false;

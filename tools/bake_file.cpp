@@ -39,9 +39,14 @@ void check_inputs(const BakeArguments& arguments, const import::Report& source) 
                       arguments.make_folders ? OutputFolder::is_made : OutputFolder::is_there);
 }
 
-SourceAsset read_asset(const BakeArguments& arguments) {
+void read_asset(const BakeArguments& arguments, BakedFile& baked) {
     const SlowStep step("reading " + arguments.input.filename().string(), arguments.quiet);
-    return read_source_asset(arguments.input, arguments.settings.division(), arguments.follow_links);
+    std::optional<std::string> node = arguments.node;
+    if (arguments.settings.node) node = std::to_string(*arguments.settings.node);
+    baked.source =
+        read_source_asset(arguments.input, node, arguments.settings.division(), arguments.follow_links);
+    baked.settings = arguments.settings;
+    baked.settings.node = baked.source.node;
 }
 
 bake::PartsResult bake_with_progress(const BakeArguments& arguments, const SourceAsset& source) {
@@ -116,6 +121,8 @@ void check_bytes(const BakeArguments& arguments, const BakedFile& baked) {
 
 BakeFacts BakedFile::facts(const BakeArguments& arguments) const {
     return {arguments,
+            settings,
+            source.node_name,
             source.asset,
             source.partition,
             part_reports,
@@ -130,7 +137,7 @@ BakedFile bake_file(const BakeArguments& arguments) {
     const ThreadLimit threads(arguments.settings.options.threads);
     check_inputs(arguments, {});
     BakedFile baked;
-    baked.source = read_asset(arguments);
+    read_asset(arguments, baked);
     check_inputs(arguments, baked.source.asset.report);
 
     const InterruptGuard guard;

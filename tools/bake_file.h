@@ -6,12 +6,14 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace spa::tools {
 
 struct BakedFile {
     SourceAsset source;
+    BakeSettings settings; // the arguments', with the node that they name
     std::vector<bake::Report> part_reports;
     bake::Report report;                             // their sum
     std::vector<Part> parts;                         // without their images

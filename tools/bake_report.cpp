@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 Json source_json(const BakeFacts& facts) {
     const import::Report& report = facts.source.report;
     const import::SourceFile& asset = report.files.front();
-    return {
+    Json json = {
         {"name", asset.name},
         {"format", report.format},
         {"xxh3", hex64(asset.xxh3)},
@@ -31,6 +31,8 @@ Json source_json(const BakeFacts& facts) {
         {"materials", facts.source.model.materials.size()},
         {"textures", facts.source.model.textures.size()},
     };
+    if (facts.settings.node) json["node"] = facts.node_name;
+    return json;
 }
 
 Json layers_json(const bake::Report& bake) {
@@ -184,8 +186,7 @@ std::string measured_text(const measure::Measurement& m) {
 } // namespace
 
 BakeSettings settings_of(const BakeFacts& facts) {
-    return facts.search == nullptr ? facts.arguments.settings
-                                   : decided(facts.arguments.settings, *facts.search);
+    return facts.search == nullptr ? facts.settings : decided(facts.settings, *facts.search);
 }
 
 std::string metadata(const BakeFacts& facts) {
@@ -213,8 +214,8 @@ std::string metadata(const BakeFacts& facts) {
 
 std::string bake_key(const BakeFacts& facts) {
     const import::Report& source = facts.source.report;
-    return bake_key(files_json(source.files), missing_json(source.missing),
-                    request_json(facts.arguments.settings), SPA_VERSION);
+    return bake_key(files_json(source.files), missing_json(source.missing), request_json(facts.settings),
+                    SPA_VERSION);
 }
 
 std::vector<std::string> warnings(const BakeFacts& facts) {
@@ -232,8 +233,7 @@ Json report_json(const BakeFacts& facts, Json output, double seconds) {
         {"key", bake_key(facts)},
         {"source", source_json(facts)},
         {"options", options_json(settings_of(facts))},
-        {"search",
-         facts.search == nullptr ? Json(nullptr) : search_json(facts.arguments.settings, *facts.search)},
+        {"search", facts.search == nullptr ? Json(nullptr) : search_json(facts.settings, *facts.search)},
         {"report", report},
         {"figures", facts.measurement == nullptr ? Json(nullptr) : figures_json(*facts.measurement)},
         {"output", std::move(output)},
@@ -248,6 +248,9 @@ std::string report_text(const BakeFacts& facts, std::uint64_t output_bytes, doub
     text += line("source", source.files.front().name + ", " + source.format + ", " +
                                std::to_string(facts.source.model.positions.size()) + " vertices, " +
                                std::to_string(bake.triangles) + " triangles");
+    if (facts.settings.node)
+        text += line("node", std::to_string(*facts.settings.node) +
+                                 (facts.node_name.empty() ? "" : ", " + facts.node_name));
     text += line("mesh", mesh_text(bake));
     if (facts.parts.size() > 1) text += line("parts", parts_text(facts));
     text += line("map", options_text(settings_of(facts).options));

@@ -21,6 +21,8 @@ namespace spa::tools {
 // Everything the reports are made from. The references outlive it.
 struct BakeFacts {
     const BakeArguments& arguments;
+    const BakeSettings& settings; // the arguments', with the node that they name
+    const std::string& node_name; // of it
     const import::Result& source;
     const Partition& partition;
     const std::vector<bake::Report>& part_reports;     // one a piece

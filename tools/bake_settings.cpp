@@ -252,7 +252,7 @@ std::string size_text(const Grid& grid) {
 
 nlohmann::ordered_json options_json(const BakeSettings& settings) {
     const bake::Options& options = settings.options;
-    return {
+    nlohmann::ordered_json json = {
         {"mapping", name(options.grid.mapping)},
         {"size", size_text(options.grid)},
         {"color_size", size_text(options.color_grid)},
@@ -270,6 +270,8 @@ nlohmann::ordered_json options_json(const BakeSettings& settings) {
         {"compress", name(settings.compress ? Compression::zstd : Compression::none)},
         {"measure", settings.measure},
     };
+    if (settings.node) json["node"] = *settings.node;
+    return json;
 }
 
 nlohmann::ordered_json request_json(const BakeSettings& settings) {

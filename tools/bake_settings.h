@@ -4,13 +4,14 @@
 #pragma once
 
 #include "arguments.h"
-#include "source_asset.h"
 #include "search_settings.h"
+#include "source_asset.h"
 
 #include "../libspa/bake/bake_options.h"
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -26,6 +27,9 @@ struct BakeSettings {
 
     [[nodiscard]] Division division() const { return {parts, max_parts, options.layers}; }
     std::optional<plan::SearchRequest> search; // what of `options` a target decides
+    // Of the asset only what this node draws, in its space: an index into the nodes as import::read_scene
+    // lists them. No option of define_bake_settings: it means something for one asset alone.
+    std::optional<std::uint32_t> node;
 };
 
 // Adds the options to the parser. The function returned is called after parsing and fills in what was not

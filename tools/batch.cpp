@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "batch_page.h"
+#include "batch_plan.h"
 #include "batch_run.h"
 #include "interrupt.h"
 #include "output.h"
@@ -73,9 +74,10 @@ void conclude(const BatchReport& report) {
 
 void batch(const BatchArguments& arguments) {
     for (const std::filesystem::path& report : arguments.reports) prepare_report(report);
-    AssetList list = find_assets(arguments.query);
+    AssetList list = arguments.plan.empty() ? find_assets(arguments.query)
+                                            : plan_assets(read_plan(arguments.plan), arguments.query);
     BatchSettings settings(arguments.config, arguments.command_line);
-    for (const BatchAsset& asset : list.assets) static_cast<void>(settings.of(asset.name));
+    for (const BatchAsset& asset : list.assets) static_cast<void>(settings.of(asset.name, asset.settings));
     for (const std::string& warning : list.warnings)
         std::cerr << "spa: warning: " << one_line(warning) << '\n';
 
@@ -135,6 +137,7 @@ Verb batch_verb() {
                     "$ spa batch assets -o maps --include 'props/**' --dry-run\n"
                     "$ spa batch assets -o maps --config bake.json --memory 16G --timeout 600\n"
                     "$ spa batch assets -o maps --shard 1/4\n"
+                    "$ spa batch --from-plan room.plan.json --report maps.html\n"
                     "$ find assets -name '*.glb' -print0 | spa batch - -o maps",
         .see_also = "spa bake, spa validate, spa inspect",
         .define = [](CLI::App& app) -> std::function<void()> {

@@ -2,6 +2,7 @@
 #include "batch_arguments.h"
 
 #include "memory_budget.h"
+#include "plan_file.h"
 
 #include <CLI/App.hpp>
 
@@ -38,18 +39,30 @@ void add_list(CLI::App& app, const std::string& option, const std::string& value
 
 void define_selection(CLI::App& app, Given& given) {
     AssetQuery& query = given.arguments.query;
-    app.add_option_function<std::vector<std::string>>(
-           "IN", [&query](const std::vector<std::string>& texts) { query.inputs = texts; },
-           "Folders, searched to the bottom for glTF, GLB, OBJ, PLY, STL and OFF; files; @FILE, a list of "
-           "files, one a line or ended by zero bytes; - for such a list on standard input")
-        ->type_name("IN...")
-        ->required();
-    add_path(
-        app, "-o,--output", "OUT_DIR",
-        "The folder for the maps, made if it is missing. IN/props/boot.glb becomes OUT_DIR/props/boot.spa; "
-        "if there is a boot.obj too, boot.glb.spa and boot.obj.spa",
-        query.output)
-        ->required();
+    CLI::Option* const inputs =
+        app.add_option_function<std::vector<std::string>>(
+               "IN", [&query](const std::vector<std::string>& texts) { query.inputs = texts; },
+               "Folders, searched to the bottom for glTF, GLB, OBJ, PLY, STL and OFF; files; @FILE, a list "
+               "of "
+               "files, one a line or ended by zero bytes; - for such a list on standard input")
+            ->type_name("IN...")
+            ->required();
+    CLI::Option* const output = add_path(app, "-o,--output", "OUT_DIR",
+                                         "The folder for the maps, made if it is missing. IN/props/boot.glb "
+                                         "becomes OUT_DIR/props/boot.spa; "
+                                         "if there is a boot.obj too, boot.glb.spa and boot.obj.spa",
+                                         query.output)
+                                    ->required();
+    // The parser asks for what is required after it has run this.
+    add_text(app, "--from-plan", "PLAN.json",
+             "Bake the objects of a scene that 'spa plan' decided to be maps, each with the settings chosen "
+             "for it, instead of IN. The maps go where the plan says, below its folder or below OUT_DIR; the "
+             "path there without .spa is the asset's name. Options of a bake given here overrule the plan's",
+             [=, &given](const std::string& text) {
+                 given.arguments.plan = text;
+                 inputs->required(false);
+                 output->required(false);
+             });
     add_list(app, "--include", "GLOB",
              "Only assets whose path below IN matches, such as '*.obj' (at any depth), 'props/*.glb' or "
              "'heroes/**'; may be given again",
@@ -165,6 +178,13 @@ BatchArguments complete(const Given& given, const CLI::App& app) {
     arguments.command_line = given_settings(app);
     static_cast<void>(parse_settings(arguments.command_line));
     if (!given.config.empty()) arguments.config = read_batch_config(given.config);
+    if (arguments.plan.empty()) return arguments;
+    if (arguments.query.output.empty()) arguments.query.output = folder_of_plan(arguments.plan);
+    if (!arguments.query.inputs.empty())
+        throw Error(ExitCode::usage, "--from-plan: '" + arguments.query.inputs.front() +
+                                         "' is not baked with it; the scene is that of the plan");
+    if (!given.config.empty())
+        throw Error(ExitCode::usage, "--from-plan: the plan has the options; leave --config out");
     return arguments;
 }
 

@@ -18,6 +18,7 @@ namespace spa::tools {
 
 struct BatchArguments {
     AssetQuery query;
+    std::filesystem::path plan; // whose objects are baked, and not query.inputs; empty: none
     BatchConfig config;
     GivenSettings command_line; // bake options
     unsigned jobs = 1;

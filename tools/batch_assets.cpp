@@ -204,6 +204,8 @@ void name_outputs(const fs::path& folder, std::vector<BatchAsset>& assets) {
     }
 }
 
+} // namespace
+
 bool is_wanted(const BatchAsset& asset, const AssetQuery& query) {
     const auto matches = [&](const std::string& pattern) { return glob_matches(pattern, asset.name); };
     const auto includes = [&](const std::string& pattern) {
@@ -216,8 +218,6 @@ bool is_wanted(const BatchAsset& asset, const AssetQuery& query) {
     const std::uint64_t hash = container::checksum(std::as_bytes(std::span(asset.name)));
     return hash % query.shard->count == query.shard->index % query.shard->count;
 }
-
-} // namespace
 
 AssetList find_assets(const AssetQuery& query) {
     Lister lister(query.follow_links);

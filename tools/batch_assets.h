@@ -2,6 +2,8 @@
 // Which assets a batch has, and where their maps go.
 #pragma once
 
+#include "batch_config.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -31,6 +33,9 @@ struct BatchAsset {
     std::filesystem::path output; // of the map
     std::uint64_t bytes = 0;      // of the file itself
     std::string problem;          // not empty: it cannot be baked, and why
+    // Of a plan's object: the node that is baked, an index as import::read_scene has it, and its settings.
+    std::optional<std::uint32_t> node{};
+    GivenSettings settings{};
 };
 
 struct AssetList {
@@ -51,5 +56,8 @@ struct AssetList {
 // itself. What cannot be listed or must not be read becomes an asset with a problem. Throws Error:
 // input_output for an input that is not there, usage if two inputs would write one file.
 AssetList find_assets(const AssetQuery& query);
+
+// Whether patterns and shard of the query want the asset, by its name.
+bool is_wanted(const BatchAsset& asset, const AssetQuery& query);
 
 } // namespace spa::tools

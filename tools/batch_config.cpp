@@ -47,7 +47,17 @@ std::string text_of(const Json& value, const SettingName& setting, const std::st
     return value.dump();
 }
 
-GivenSettings parse_options(const Json& json, const std::string& where) {
+void check_members(const Json& json, std::initializer_list<const char*> allowed, const std::string& where) {
+    if (!json.is_object()) refuse(where, "is not an object");
+    for (const auto& [key, value] : json.items())
+        if (std::find(allowed.begin(), allowed.end(), key) == allowed.end())
+            refuse(where, "there is no member '" + key + "' here" +
+                              did_you_mean(key, std::vector<std::string>(allowed.begin(), allowed.end())));
+}
+
+} // namespace
+
+GivenSettings parse_given_settings(const Json& json, const std::string& where) {
     if (!json.is_object()) refuse(where, "is an object of options");
     const std::vector<SettingName> known = setting_names();
     GivenSettings given;
@@ -72,16 +82,6 @@ GivenSettings parse_options(const Json& json, const std::string& where) {
     return given;
 }
 
-void check_members(const Json& json, std::initializer_list<const char*> allowed, const std::string& where) {
-    if (!json.is_object()) refuse(where, "is not an object");
-    for (const auto& [key, value] : json.items())
-        if (std::find(allowed.begin(), allowed.end(), key) == allowed.end())
-            refuse(where, "there is no member '" + key + "' here" +
-                              did_you_mean(key, std::vector<std::string>(allowed.begin(), allowed.end())));
-}
-
-} // namespace
-
 BatchConfig read_batch_config(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) throw Error(ExitCode::input_output, path.string() + ": cannot be opened; check the path");
@@ -95,7 +95,7 @@ BatchConfig read_batch_config(const std::filesystem::path& path) {
     check_members(json, {"options", "patterns"}, path.string());
     BatchConfig config;
     if (json.contains("options"))
-        config.options = parse_options(json["options"], path.string() + ": options");
+        config.options = parse_given_settings(json["options"], path.string() + ": options");
     if (!json.contains("patterns")) return config;
     const Json& patterns = json["patterns"];
     if (!patterns.is_array()) refuse(path.string() + ": patterns", "is not an array");
@@ -107,7 +107,7 @@ BatchConfig read_batch_config(const std::filesystem::path& path) {
             refuse(where, "has no 'match', the pattern of the assets that it is for");
         if (!patterns[i].contains("options")) refuse(where, "has no 'options'");
         config.by_pattern.emplace_back(patterns[i]["match"].get<std::string>(),
-                                       parse_options(patterns[i]["options"], where + ".options"));
+                                       parse_given_settings(patterns[i]["options"], where + ".options"));
     }
     return config;
 }
@@ -138,11 +138,12 @@ BakeSettings parse_settings(const GivenSettings& given) {
     return complete();
 }
 
-const BakeSettings& BatchSettings::of(const std::string& name) {
+const BakeSettings& BatchSettings::of(const std::string& name, const GivenSettings& own) {
     GivenSettings merged = command_line_;
     for (auto pattern = config_.by_pattern.rbegin(); pattern != config_.by_pattern.rend(); ++pattern)
         if (glob_matches(pattern->first, name)) merged.insert(pattern->second.begin(), pattern->second.end());
     merged.insert(config_.options.begin(), config_.options.end());
+    merged.insert(own.begin(), own.end());
     const auto found = parsed_.find(merged);
     if (found != parsed_.end()) return found->second;
     try {

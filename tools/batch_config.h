@@ -28,6 +28,10 @@ struct BatchConfig {
 // option or a value that there is not; the message names file and place.
 BatchConfig read_batch_config(const std::filesystem::path& path);
 
+// Options as in "options" of that file. where: file and place, which messages begin with. Throws
+// Error{invalid_data}.
+GivenSettings parse_given_settings(const nlohmann::json& json, const std::string& where);
+
 // Those options of a parsed command line that define_bake_settings defined and that were given.
 GivenSettings given_settings(const CLI::App& app);
 
@@ -40,9 +44,10 @@ public:
     BatchSettings(BatchConfig config, GivenSettings command_line)
         : config_(std::move(config)), command_line_(std::move(command_line)) {}
 
-    // Of the asset of this name. Parsed once for all assets that have the same; the reference lives as long
-    // as this. Throws Error{usage} where they contradict each other; the message names the asset.
-    const BakeSettings& of(const std::string& name);
+    // Of the asset of this name; of what neither says `own` has the word, the settings that a plan gives the
+    // asset. Parsed once for all assets that have the same; the reference lives as long as this. Throws
+    // Error{usage} where they contradict each other; the message names the asset.
+    const BakeSettings& of(const std::string& name, const GivenSettings& own = {});
 
 private:
     BatchConfig config_;

@@ -31,7 +31,7 @@ Json asset_json(const BatchReport& report, std::size_t i) {
     const BatchAsset& asset = report.assets[i];
     const AssetResult& result = report.results[i];
     // Of a map that is there its own; else those that were asked for.
-    Json options = result.facts.options.empty() ? options_json(report.settings.of(asset.name))
+    Json options = result.facts.options.empty() ? options_json(report.settings.of(asset.name, asset.settings))
                                                 : Json::parse(result.facts.options);
     return {
         {"source", asset.name},
@@ -52,6 +52,7 @@ Json asset_json(const BatchReport& report, std::size_t i) {
         {"output_bytes", number_or_null(result.facts.bytes)},
         {"size", options["size"]},
         {"layers", options["layers"]},
+        {"node", asset.node ? Json(*asset.node) : Json(nullptr)},
         {"figures", result.facts.figures.empty() ? Json(nullptr) : Json::parse(result.facts.figures)},
     };
 }
@@ -109,6 +110,7 @@ Json batch_json(const BatchReport& report) {
     return {
         {"generator", {{"name", "spa"}, {"version", SPA_VERSION}}},
         {"inputs", arguments.query.inputs},
+        {"plan", arguments.plan.empty() ? Json(nullptr) : Json(arguments.plan.string())},
         {"output", arguments.query.output.string()},
         {"shard", shard ? Json{{"index", shard->index}, {"count", shard->count}} : Json(nullptr)},
         {"jobs", arguments.jobs},

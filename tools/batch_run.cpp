@@ -113,8 +113,9 @@ private:
             result.error = asset.path.string() + ": " + asset.problem;
             return done(i);
         }
-        Start start{i, {asset, report_.settings.of(asset.name)}, 0};
+        Start start{i, {asset, report_.settings.of(asset.name, asset.settings)}, 0};
         ChildTask& task = start.task;
+        task.settings.node = asset.node;
         task.settings.options.threads = arguments_.threads;
         task.follow_links = arguments_.query.follow_links;
         task.dry_run = arguments_.dry_run;

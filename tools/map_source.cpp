@@ -37,6 +37,12 @@ std::filesystem::path source_in(const std::filesystem::path& folder, const MapFi
     return std::filesystem::is_regular_file(path, ignored) ? path : std::filesystem::path{};
 }
 
+std::optional<std::uint32_t> source_node(const MapFile& file) {
+    const Json node = member(member(parse_metadata(file.map()), "options"), "node");
+    if (!node.is_number_unsigned() || node.get<std::uint64_t>() >= no_index) return {};
+    return node.get<std::uint32_t>();
+}
+
 std::optional<std::vector<std::string>> differing_files(const MapFile& file, const import::Report& source) {
     const Json files = member(member(parse_metadata(file.map()), "source"), "files");
     if (!files.is_array()) return {};

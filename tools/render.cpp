@@ -3,6 +3,7 @@
 #include "output.h"
 #include "progress.h"
 #include "render_pictures.h"
+#include "render_plan_report.h"
 #include "render_report.h"
 #include "verb.h"
 
@@ -39,12 +40,14 @@ std::vector<std::filesystem::path> output_paths(const RenderArguments& arguments
     if (arguments.aovs && !arguments.writes_exr())
         for (const char* const name : aov_names) paths.push_back(beside(arguments.output, name));
     if (!arguments.difference.empty()) paths.push_back(arguments.difference);
+    if (!arguments.plan_sheet.empty()) paths.push_back(arguments.plan_sheet);
     return paths;
 }
 
 void check_outputs(const RenderArguments& arguments, const import::Report& source) {
     std::vector<std::filesystem::path> inputs{arguments.scene};
     for (const MapArgument& map : arguments.maps) inputs.emplace_back(map.file);
+    if (!arguments.plan.empty()) inputs.push_back(arguments.plan);
     for (const import::SourceFile& file : source.files)
         inputs.push_back(arguments.scene.parent_path() / file.name);
     if (!arguments.compare.empty()) inputs.push_back(arguments.compare);
@@ -91,16 +94,17 @@ render::Settings complete_scene(Scene& scene, const RenderArguments& arguments) 
 }
 
 std::unique_ptr<render::DeviceScene> upload(const RenderArguments& arguments, const render::Gpu& gpu,
-                                            const Scene& scene, const std::vector<PlacedMap>& maps) {
+                                            const Scene& scene, const std::vector<PlacedMap>& maps,
+                                            const std::vector<std::uint32_t>& dropped) {
     const SlowStep step("building acceleration structures", arguments.quiet);
-    return std::make_unique<render::DeviceScene>(gpu, scene, placements(maps, arguments),
+    return std::make_unique<render::DeviceScene>(gpu, scene, placements(maps, dropped, arguments),
                                                  arguments.uses_replaced_triangles());
 }
 
-render::Frame render_with_progress(const RenderArguments& arguments, const render::Gpu& gpu,
-                                   const render::DeviceScene& scene, const render::Settings& settings,
-                                   render::FrameTimes& times) {
-    ProgressReport progress("rendering " + arguments.output.filename().string(), arguments.quiet);
+render::Frame render_with_progress(const RenderArguments& arguments, const std::string& what,
+                                   const render::Gpu& gpu, const render::DeviceScene& scene,
+                                   const render::Settings& settings, render::FrameTimes& times) {
+    ProgressReport progress("rendering " + what, arguments.quiet);
     render::Frame frame = render::render(gpu, scene, settings, &times, [&progress](double share) {
         progress.update(share);
         return interrupt_signal() == 0;
@@ -109,8 +113,9 @@ render::Frame render_with_progress(const RenderArguments& arguments, const rende
     return frame;
 }
 
-std::vector<Output> encode(const RenderArguments& arguments, const render::Frame& frame,
-                           const std::optional<ImageComparison>& comparison) {
+std::vector<Output> encode(const RenderFacts& facts, const render::Frame& frame) {
+    const RenderArguments& arguments = facts.arguments;
+    const std::optional<ImageComparison>& comparison = facts.comparison;
     std::vector<Output> outputs;
     if (arguments.writes_exr()) {
         outputs.push_back({arguments.output, encode_frame(frame)});
@@ -126,6 +131,9 @@ std::vector<Output> encode(const RenderArguments& arguments, const render::Frame
             arguments.output.filename().string() + " and " + arguments.compare.filename().string();
         outputs.push_back({arguments.difference, encode_png(comparison_sheet(*comparison, title))});
     }
+    if (facts.plan && !arguments.plan_sheet.empty())
+        outputs.push_back({arguments.plan_sheet, encode_png(plan_sheet(*facts.plan, frame.width, frame.height,
+                                                                       arguments.exposure))});
     return outputs;
 }
 
@@ -154,8 +162,31 @@ void judge(const std::optional<ImageComparison>& comparison, const RenderArgumen
     throw Error(ExitCode::limits, message);
 }
 
-void render_scene(const RenderArguments& arguments) {
-    if (arguments.list_devices) return list_devices(arguments);
+void compare_with_plan(RenderFacts& facts, const PlacedPlan& placed, const render::Gpu& gpu,
+                       const Scene& scene, const render::Frame& frame,
+                       const std::optional<import::LinearPicture>& reference) {
+    facts.plan.emplace(PlanFacts{placed, {}, {}, {}, {}, 0, 0});
+    PlanVariant& plan = facts.plan->plan;
+    plan.times = facts.frame_times;
+    plan.memory = facts.memory;
+    plan.file_bytes = placed.file_bytes;
+    plan.maps = placed.maps.size();
+    if (facts.arguments.plan_only) return;
+    compare_plan(*facts.plan, facts.arguments, gpu, scene, facts.settings, frame,
+                 reference ? &*reference : nullptr,
+                 [&](const std::string& what, const render::DeviceScene& on_device,
+                     const render::Settings& settings, render::FrameTimes& times) {
+                     return render_with_progress(facts.arguments, what, gpu, on_device, settings, times);
+                 });
+}
+
+void render_scene(const RenderArguments& given) {
+    if (given.list_devices) return list_devices(given);
+    RenderArguments arguments = given;
+    std::optional<Plan> plan;
+    if (!arguments.plan.empty()) plan = read_plan(arguments.plan);
+    if (plan && arguments.scene.empty()) arguments.scene = plan->scene;
+    if (plan && !arguments.camera) arguments.camera = plan->camera;
     const Stopwatch all;
     check_outputs(arguments, {});
     std::optional<InterruptGuard> guard(std::in_place);
@@ -167,23 +198,32 @@ void render_scene(const RenderArguments& arguments) {
     const Stopwatch reading;
     spa::import::SceneResult source = read_scene(arguments);
     check_outputs(arguments, source.report);
-    const std::vector<PlacedMap> maps = place_maps(source.scene, arguments);
-    for (const std::string& sentence : misfits(source.scene, maps))
+    std::optional<PlacedPlan> placed;
+    if (plan) placed = place_plan(source.scene, arguments, std::move(*plan));
+    const std::vector<PlacedMap> own_maps =
+        placed ? std::vector<PlacedMap>() : place_maps(source.scene, arguments);
+    const std::vector<PlacedMap>& maps = placed ? placed->maps : own_maps;
+    for (const std::string& sentence :
+         placed ? plan_warnings(*placed, arguments) : misfits(source.scene, maps))
         std::cerr << "spa: warning: " << sentence << '\n';
     const double read_seconds = reading.seconds();
     const render::Settings settings = complete_scene(source.scene, arguments);
     InterruptGuard::check();
 
-    const std::unique_ptr<render::DeviceScene> scene = upload(arguments, gpu, source.scene, maps);
+    std::unique_ptr<render::DeviceScene> scene =
+        upload(arguments, gpu, source.scene, maps, placed ? placed->dropped : std::vector<std::uint32_t>());
     InterruptGuard::check();
     RenderFacts facts{arguments, settings, source.scene, maps, gpu.entry()};
-    const render::Frame frame = render_with_progress(arguments, gpu, *scene, settings, facts.frame_times);
+    const render::Frame frame = render_with_progress(arguments, arguments.output.filename().string(), gpu,
+                                                     *scene, settings, facts.frame_times);
+    facts.memory = scene->memory();
+    facts.scene_times = scene->times();
+    scene.reset();
+    if (placed) compare_with_plan(facts, *placed, gpu, source.scene, frame, reference);
     if (reference)
         facts.comparison =
             compare_with(frame, *reference, arguments.compare.string(), arguments.exposure, arguments.fail);
-    facts.files = write(encode(arguments, frame, facts.comparison));
-    facts.memory = scene->memory();
-    facts.scene_times = scene->times();
+    facts.files = write(encode(facts, frame));
     facts.read_seconds = read_seconds;
     facts.seconds = all.seconds();
     guard.reset();
@@ -213,15 +253,21 @@ Verb render_verb() {
             "picture as a display shows it. The same scene, options and device give the same bytes.\n\n"
             "--compare sets the picture beside a reference and prints relMSE, RMSE, PSNR and SSIM, of direct "
             "and indirect light too if the reference has these layers. What the figures mean is in "
-            "docs/measures.md.",
+            "docs/measures.md.\n\n"
+            "--plan shows a scene as 'spa plan' decided: maps where it pays, triangles elsewhere, and what "
+            "is "
+            "dropped is not there for rays that meet maps. The report sets the indirect light beside that of "
+            "triangles alone (the same seed), and beside maps that are all of the plan's one size, which are "
+            "baked in memory for it, with the time of a frame and the bytes that each kind of ray needs.",
         .examples = "$ spa render corner.glb -o corner.png\n"
                     "$ spa render corner.glb --map boot=boot.spa -o corner.exr --samples 128\n"
                     "$ spa render corner.glb -o ref.exr --reference\n"
                     "$ spa render corner.glb --map boot=boot.spa -o fan.exr --method fan \\\n"
                     "      --test-rays 10 --compare ref.exr --difference fan.png \\\n"
                     "      --fail indirect.relmse=0.01,ssim=0.98\n"
+                    "$ spa render --plan room.plan.json -o room.png\n"
                     "$ spa render --list-devices",
-        .see_also = "spa sample, spa bake, spa validate",
+        .see_also = "spa sample, spa bake, spa plan, spa validate",
         .define = [](CLI::App& app) -> std::function<void()> {
             return [complete = define_render_arguments(app)] { render_scene(complete()); };
         },

@@ -114,6 +114,22 @@ void complete_geometry(Given& given) {
     settings.samples = given.samples.value_or(arguments.reference ? reference_samples : settings.samples);
 }
 
+void check_plan(const RenderArguments& arguments) {
+    if (arguments.plan.empty()) {
+        if (arguments.plan_only || !arguments.plan_maps.empty() || !arguments.plan_sheet.empty())
+            throw Error(ExitCode::usage,
+                        "--plan-only, --plan-maps and --plan-sheet are for --plan PLAN.json");
+        return;
+    }
+    if (arguments.plan_only && !arguments.plan_sheet.empty())
+        throw Error(ExitCode::usage, "--plan-sheet shows what --plan-only leaves out; give one of them");
+    if (!arguments.maps.empty())
+        throw Error(ExitCode::usage, "--plan: the plan says what is a map; leave --map out");
+    if (!arguments.uses_maps())
+        throw Error(ExitCode::usage, "--plan: no ray would meet maps; leave out --reference, or let shadow, "
+                                     "secondary or primary rays meet maps");
+}
+
 void check_files(const RenderArguments& arguments) {
     if (arguments.scene == "-")
         throw Error(ExitCode::usage, "a scene is not read from standard input, because it may refer to files "
@@ -126,6 +142,7 @@ void check_files(const RenderArguments& arguments) {
         throw Error(ExitCode::usage, "--difference needs --compare REF");
     if (arguments.compare.empty() && !arguments.fail.empty())
         throw Error(ExitCode::usage, "--fail needs --compare REF");
+    check_plan(arguments);
     for (std::size_t i = 0; i < arguments.maps.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (arguments.maps[i].node == arguments.maps[j].node)
@@ -144,6 +161,15 @@ void define_scene_options(CLI::App& app, Given& given) {
            "times. Of several nodes of one name all are replaced. The map's object space is the node's")
         ->type_name("NODE=FILE.spa")
         ->allow_extra_args(false);
+    add_path(app, "--plan-maps", "DIR", "The folder that 'spa batch --from-plan' wrote the maps into",
+             arguments.plan_maps)
+        ->default_str("that of the plan");
+    add_path(app, "--plan-sheet", "SHEET.png",
+             "With --plan: draw triangles alone, maps of one size and the plan side by side into this file, "
+             "with where their indirect light differs",
+             arguments.plan_sheet);
+    app.add_flag("--plan-only", arguments.plan_only,
+                 "With --plan: do not also render triangles alone and maps of one size to compare with");
     add_text(app, "--layers", "N", "Layers of the maps to use, 1 to 64",
              [&arguments](const std::string& text) {
                  arguments.layers = parse_number("--layers", text, 1, max_layers);
@@ -240,8 +266,9 @@ const char* name(MapMethod method) {
 bool RenderArguments::writes_exr() const { return output.extension() == ".exr"; }
 
 bool RenderArguments::uses_maps() const {
-    return !maps.empty() && (settings.primary == Geometry::maps || settings.shadow == Geometry::maps ||
-                             settings.secondary == Geometry::maps);
+    return (!maps.empty() || !plan.empty()) &&
+           (settings.primary == Geometry::maps || settings.shadow == Geometry::maps ||
+            settings.secondary == Geometry::maps);
 }
 
 bool RenderArguments::uses_replaced_triangles() const {
@@ -257,6 +284,16 @@ std::function<RenderArguments()> define_render_arguments(CLI::App& app) {
             ->required();
     CLI::Option* const output =
         add_path(app, "-o,--output", "OUT.exr|OUT.png", "The picture to write", arguments.output)->required();
+    // The parser asks for what is required after it has run this.
+    add_text(
+        app, "--plan", "PLAN.json",
+        "Show the scene as 'spa plan' decided, with the maps that 'spa batch --from-plan' baked: without "
+        "SCENE the scene of the plan. Also renders it as triangles alone and with maps of one size, and "
+        "reports errors, speed and memory of the three",
+        [=, &arguments](const std::string& text) {
+            arguments.plan = text;
+            scene->required(false);
+        });
     define_scene_options(app, *given);
     define_tracing_options(app, *given);
     define_picture_options(app, arguments);

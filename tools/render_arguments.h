@@ -37,7 +37,9 @@ struct MapArgument {
 struct RenderArguments {
     std::filesystem::path scene, output;
     std::vector<MapArgument> maps;
-    std::uint32_t layers = 0; // of the maps; 0: all
+    std::filesystem::path plan, plan_maps, plan_sheet; // empty: none, beside the plan, none
+    bool plan_only = false;                            // without what it is compared with
+    std::uint32_t layers = 0;                          // of the maps; 0: all
     std::optional<std::string> camera;
     // Without the camera, which the scene decides.
     render::Settings settings;

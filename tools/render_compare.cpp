@@ -4,7 +4,6 @@
 #include "heat.h"
 #include "render_arguments.h"
 #include "render_pictures.h"
-#include "sheet_layout.h"
 #include "text.h"
 
 #include "../libspa/core/error.h"
@@ -29,6 +28,25 @@ std::string size_of(std::uint32_t width, std::uint32_t height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
+std::string figure_text(const ImageFigure& figure, const measure::ImageErrors& errors) {
+    const std::optional<double> value = figure.value(errors);
+    return value ? significant(*value, 4) : "none";
+}
+
+// JSON has no infinity: null stands for what equal pictures have, and for what cannot be formed.
+Json figure_json(const std::optional<double>& value) {
+    return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+} // namespace
+
+std::string image_figures_text(const measure::ImageErrors& errors) {
+    std::string text;
+    for (const ImageFigure& figure : image_figures())
+        text += (text.empty() ? "" : "   ") + std::string(figure.label) + " " + figure_text(figure, errors);
+    return text;
+}
+
 const std::vector<Vec3f>* layer_of(const import::LinearPicture& reference, std::string_view name) {
     const import::PictureLayer* const layer = reference.find(name == compared_layers[0] ? "" : name);
     return layer == nullptr ? nullptr : &layer->pixels;
@@ -40,34 +58,11 @@ std::vector<Vec3f> layer_of(const render::Frame& frame, std::string_view name) {
     return beauty(frame);
 }
 
-Picture difference_picture(const ImageComparison& comparison, const LayerComparison& layer) {
-    Picture picture(comparison.width, comparison.height, {});
-    const double scale = std::exp2(comparison.exposure);
-    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
-        const Vec3d d = (to_double(layer.picture[i]) - to_double(layer.reference[i])) * scale;
-        picture.pixels[i] = heat_color(light_heat, std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}));
-    }
-    return picture;
+Json image_figures_json(const measure::ImageErrors& errors) {
+    Json json = Json::object();
+    for (const ImageFigure& figure : image_figures()) json[figure.name] = figure_json(figure.value(errors));
+    return json;
 }
-
-std::string figure_text(const ImageFigure& figure, const measure::ImageErrors& errors) {
-    const std::optional<double> value = figure.value(errors);
-    return value ? significant(*value, 4) : "none";
-}
-
-std::string figures_text(const measure::ImageErrors& errors) {
-    std::string text;
-    for (const ImageFigure& figure : image_figures())
-        text += (text.empty() ? "" : "   ") + std::string(figure.label) + " " + figure_text(figure, errors);
-    return text;
-}
-
-// JSON has no infinity: null stands for what equal pictures have, and for what cannot be formed.
-Json figure_json(const std::optional<double>& value) {
-    return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
-}
-
-} // namespace
 
 // clang-format takes a line that begins with `import::` for one of a module.
 spa::import::LinearPicture read_reference(const std::filesystem::path& path, const render::Settings& settings,
@@ -124,6 +119,27 @@ ImageComparison compare_with(const render::Frame& frame, const import::LinearPic
     return comparison;
 }
 
+Picture light_difference(std::uint32_t width, std::uint32_t height, const std::vector<Vec3f>& a,
+                         const std::vector<Vec3f>& b, double exposure) {
+    Picture picture(width, height, {});
+    const double scale = std::exp2(exposure);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        const Vec3d d = (to_double(a[i]) - to_double(b[i])) * scale;
+        picture.pixels[i] = heat_color(light_heat, std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}));
+    }
+    return picture;
+}
+
+SheetLegend light_difference_legend() {
+    SheetLegend legend;
+    legend.text(std::string(light_heat.what) + " " + significant(light_heat.low, 3) + " ")
+        .bar(viridis)
+        .text(" " + significant(light_heat.high, 3) + "   ")
+        .bar([](double) { return equal_color; }, 2)
+        .text(" equal   " + std::string(light_heat.unit));
+    return legend;
+}
+
 Picture comparison_sheet(const ImageComparison& comparison, const std::string& title) {
     SheetScale scale(comparison.layers.size());
     scale.cell_width = std::clamp(comparison.width, scale.cell_width, widest_cell);
@@ -132,25 +148,21 @@ Picture comparison_sheet(const ImageComparison& comparison, const std::string& t
         const auto shown = [&](const std::vector<Vec3f>& pixels) {
             return tone_map(comparison.width, comparison.height, pixels, comparison.exposure);
         };
-        rows.push_back({layer.name + "   " + figures_text(layer.errors),
+        rows.push_back({layer.name + "   " + image_figures_text(layer.errors),
                         {make_cell("rendered", shown(layer.picture), scale),
                          make_cell("reference", shown(layer.reference), scale),
-                         make_cell("difference", difference_picture(comparison, layer), scale)}});
+                         make_cell("difference",
+                                   light_difference(comparison.width, comparison.height, layer.picture,
+                                                    layer.reference, comparison.exposure),
+                                   scale)}});
     }
-    SheetLegend legend;
-    legend.text(std::string(light_heat.what) + " " + significant(light_heat.low, 3) + " ")
-        .bar(viridis)
-        .text(" " + significant(light_heat.high, 3) + "   ")
-        .bar([](double) { return equal_color; }, 2)
-        .text(" equal   " + std::string(light_heat.unit));
-    return lay_out_sheet(title, legend, rows, scale);
+    return lay_out_sheet(title, light_difference_legend(), rows, scale);
 }
 
 Json comparison_json(const ImageComparison& comparison, const std::string& reference) {
     Json layers = Json::object();
     for (const LayerComparison& layer : comparison.layers)
-        for (const ImageFigure& figure : image_figures())
-            layers[layer.name][figure.name] = figure_json(figure.value(layer.errors));
+        layers[layer.name] = image_figures_json(layer.errors);
     Json limits = Json::array();
     for (const ImageLimit& limit : comparison.limits) {
         const measure::ImageErrors& errors = comparison.layer(limit.layer).errors;
@@ -166,7 +178,7 @@ std::string comparison_text(const ImageComparison& comparison, const std::string
                             std::size_t label_width) {
     std::string text = pad_right("compared", label_width) + "with " + reference + "\n";
     for (const LayerComparison& layer : comparison.layers)
-        text += pad_right("  " + layer.name, label_width) + figures_text(layer.errors) + "\n";
+        text += pad_right("  " + layer.name, label_width) + image_figures_text(layer.errors) + "\n";
     return text;
 }
 

@@ -4,6 +4,7 @@
 
 #include "picture.h"
 #include "render_limits.h"
+#include "sheet_layout.h"
 
 #include "../formats/import/linear_picture.h"
 #include "../libspa/render/render.h"
@@ -43,6 +44,12 @@ ImageComparison compare_with(const render::Frame& frame, const import::LinearPic
                              const std::string& reference_name, double exposure,
                              const std::vector<ImageLimit>& limits);
 
+// Where two pictures of linear light differ, as colours: the largest difference of the three channels, as
+// exposed. And what the colours mean.
+Picture light_difference(std::uint32_t width, std::uint32_t height, const std::vector<Vec3f>& a,
+                         const std::vector<Vec3f>& b, double exposure);
+SheetLegend light_difference_legend();
+
 // One row a layer: the picture, the reference, and where they differ.
 Picture comparison_sheet(const ImageComparison& comparison, const std::string& title);
 
@@ -50,6 +57,12 @@ nlohmann::ordered_json comparison_json(const ImageComparison& comparison, const 
 // Lines for people; label_width: of the report's first column.
 std::string comparison_text(const ImageComparison& comparison, const std::string& reference,
                             std::size_t label_width);
+// The figures of one layer: image_figures() by name, and as a line for people.
+nlohmann::ordered_json image_figures_json(const measure::ImageErrors& errors);
+std::string image_figures_text(const measure::ImageErrors& errors);
+// The frame's layer of a name of compared_layers; the reference's, null if it has none.
+std::vector<Vec3f> layer_of(const render::Frame& frame, std::string_view name);
+const std::vector<Vec3f>* layer_of(const import::LinearPicture& reference, std::string_view name);
 // "indirect.relmse is 0.02, above 0.01 (what it is)"
 std::string limit_sentence(const ImageComparison& comparison, const ImageLimit& limit);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_report.h"
 
+#include "render_plan_report.h"
 #include "text.h"
 
 #include <nlohmann/json.hpp>
@@ -177,6 +178,7 @@ Json report_json(const RenderFacts& facts) {
         {"rays", rays_json(facts.frame_times)},
         {"comparison", facts.comparison ? comparison_json(*facts.comparison, facts.arguments.compare.string())
                                         : Json(nullptr)},
+        {"plan", facts.plan ? plan_json(*facts.plan) : Json(nullptr)},
     };
 }
 
@@ -206,6 +208,7 @@ std::string report_text(const RenderFacts& facts) {
     text += memory_text(facts) + times_text(facts);
     if (facts.comparison)
         text += comparison_text(*facts.comparison, facts.arguments.compare.string(), label_width);
+    if (facts.plan) text += plan_text(*facts.plan, label_width);
     for (std::size_t i = 0; i < facts.files.size(); ++i)
         text += line(i == 0 ? "wrote" : "", facts.files[i].path + ", " + byte_count(facts.files[i].bytes));
     return text;

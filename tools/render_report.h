@@ -5,6 +5,7 @@
 
 #include "render_compare.h"
 #include "render_input.h"
+#include "render_plan.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -26,7 +27,7 @@ struct RenderFacts {
     const RenderArguments& arguments;
     const render::Settings& settings;
     const Scene& scene;
-    const std::vector<PlacedMap>& maps;
+    const std::vector<PlacedMap>& maps; // the plan's, if there is one
     const render::DeviceEntry& device;
     render::SceneMemory memory{};
     render::SceneTimes scene_times{};
@@ -34,6 +35,7 @@ struct RenderFacts {
     double read_seconds = 0; // scene and maps
     double seconds = 0;      // all
     std::optional<ImageComparison> comparison{};
+    std::optional<PlanFacts> plan{};
     std::vector<WrittenFile> files{};
 };
 

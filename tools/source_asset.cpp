@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "source_asset.h"
 
+#include "asset_node.h"
+
 #include "../libspa/bake/auto_parts.h"
 #include "../libspa/core/error.h"
 
@@ -39,18 +41,26 @@ const char* name(PartsKind kind) {
     return "whole";
 }
 
-SourceAsset read_source_asset(const std::filesystem::path& path, const Division& division,
-                              bool follow_links) {
+SourceAsset read_source_asset(const std::filesystem::path& path, const std::optional<std::string>& node,
+                              const Division& division, bool follow_links) {
     const spa::import::Limits limits{.follow_links = follow_links};
     SourceAsset source;
     Scene scene;
+    if (node && (division.kind == PartsKind::nodes || division.kind == PartsKind::bones))
+        throw Error(ExitCode::usage, std::string("--parts ") + name(division.kind) +
+                                         ": what one node draws (--node) is baked as it stands; use "
+                                         "--parts components or auto, or leave out --node");
     if (division.kind == PartsKind::nodes || division.kind == PartsKind::bones) {
         spa::import::SceneResult read =
             spa::import::read_scene(path, limits, {.rig = division.kind == PartsKind::bones});
         scene = std::move(read.scene);
         source.asset.report = std::move(read.report);
     } else {
-        source.asset = spa::import::read_model(path, limits);
+        AssetModel read = read_asset_model(path, node, limits);
+        source.asset = std::move(read.source);
+        source.node = read.node;
+        source.node_name = std::move(read.node_name);
+        source.node_warning = std::move(read.warning);
         scene.model = std::move(source.asset.model);
     }
     try {

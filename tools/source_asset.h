@@ -9,6 +9,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
 
 namespace spa::tools {
 
@@ -27,12 +29,16 @@ struct Division {
 
 struct SourceAsset {
     import::Result asset;
-    Partition partition; // at least one piece
+    Partition partition;                 // at least one piece
+    std::optional<std::uint32_t> node;   // as AssetModel (asset_node.h)
+    std::string node_name, node_warning; // the same
 };
 
-// Throws Error as read_model and the divisions (partition.h, auto_parts.h) do, with messages that begin with
-// the path.
-SourceAsset read_source_asset(const std::filesystem::path& path, const Division& division, bool follow_links);
+// node: as read_asset_model takes it; what it draws is divided, by components or need. Throws Error as that
+// and the divisions (partition.h, auto_parts.h) do, with messages that begin with the path, and Error{usage}
+// for one node to be divided by nodes or bones.
+SourceAsset read_source_asset(const std::filesystem::path& path, const std::optional<std::string>& node,
+                              const Division& division, bool follow_links);
 
 // The division that a map was baked with, by the options in its metadata; what another program wrote may lack
 // them, and is taken as whole.

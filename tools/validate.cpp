@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "asset_node.h"
 #include "heat_sheet.h"
 #include "interrupt.h"
 #include "map_source.h"
@@ -110,7 +111,9 @@ const nlohmann::ordered_json& bake_option(const nlohmann::ordered_json& metadata
 
 SourceAsset read_source(const Arguments& arguments, const MapFile& file, const std::filesystem::path& path) {
     try {
-        return read_source_asset(path, division_of(parse_metadata(file.map())), arguments.follow_links);
+        const std::optional<std::uint32_t> node = source_node(file);
+        return read_source_asset(path, node ? std::optional(std::to_string(*node)) : std::nullopt,
+                                 division_of(parse_metadata(file.map())), arguments.follow_links);
     } catch (const Error& error) {
         if (!arguments.source.empty()) throw;
         throw Error(error.code(), std::string(error.what()) + " (the container " + file.name +

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 namespace spa::render {
 namespace {
@@ -62,8 +64,9 @@ DeviceScene::State::State(const Gpu& gpu, const Scene& scene, std::span<const Ma
     globals.offset = float(scene_size);
     for (const MapPlacement& placement : maps) {
         double size = 0;
-        for (const Part& part : placement.map->parts)
-            size = std::max(size, sample_distance(part, scene.nodes[placement.node].to_world));
+        if (!placement.dropped)
+            for (const Part& part : placement.map->parts)
+                size = std::max(size, sample_distance(part, scene.nodes[placement.node].to_world));
         offsets_.push_back(float(std::max(scene_size, size * map_offset)));
     }
 
@@ -152,9 +155,17 @@ void DeviceScene::State::add_triangle_instances(const Gpu& gpu, const SceneTrian
     }
 }
 
-void DeviceScene::State::add_maps(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps) {
+void DeviceScene::State::load_maps(const Gpu& gpu, std::span<const MapPlacement> maps) {
     std::vector<vulkan::MapObject*> objects;
+    std::map<std::tuple<const SphericalMap*, std::uint32_t, bool, bool>, std::size_t> loaded;
     for (const MapPlacement& placement : maps) {
+        map_of_placement_.push_back(maps_.size());
+        if (placement.dropped) continue;
+        const auto [same, is_new] = loaded.emplace(
+            std::tuple(placement.map, placement.layers, placement.holes, placement.test_points),
+            maps_.size());
+        map_of_placement_.back() = same->second;
+        if (!is_new) continue;
         vulkan::LoadOptions options;
         options.compile.layers = placement.layers;
         options.coverage = placement.holes;
@@ -164,22 +175,29 @@ void DeviceScene::State::add_maps(const Gpu& gpu, const Scene& scene, std::span<
     }
     if (objects.empty()) return;
     vulkan::load(gpu.device(), gpu.queue(), gpu.queue_family(), objects);
+    for (const vulkan::MapObject* const object : objects) {
+        memory.maps += object->memory().images;
+        memory.map_structures += object->memory().structures;
+    }
+}
 
+void DeviceScene::State::add_maps(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps) {
+    load_maps(gpu, maps);
     for (std::size_t i = 0; i < maps.size(); ++i) {
+        if (maps[i].dropped) continue;
         const SceneNode& node = scene.nodes[maps[i].node];
         if (!(std::abs(determinant(node.to_world.linear)) > 0))
             throw Error(ExitCode::invalid_data,
                         "node '" + node.name + "' has a transform without inverse: a map cannot replace it");
-        memory.maps += maps_[i]->memory().images;
-        memory.map_structures += maps_[i]->memory().structures;
-        for (std::uint32_t part = 0; part < maps_[i]->part_count(); ++part) {
+        const vulkan::MapObject& map = *maps_[map_of_placement_[i]];
+        for (std::uint32_t part = 0; part < map.part_count(); ++part) {
             vulkan::InstanceOptions options;
             options.custom_index = std::uint32_t(instances_.size());
             options.mask = SPA_MASK_MAPS;
             options.hit_record = first_map_record + std::uint32_t(records.size());
-            top_instances_.push_back(maps_[i]->instance(part, node.to_world, options));
+            top_instances_.push_back(map.instance(part, node.to_world, options));
             const vulkan::ShaderRecord record =
-                maps_[i]->shader_record(part, maps[i].test_points ? SPA_CULL_BACK : 0);
+                map.shader_record(part, maps[i].test_points ? SPA_CULL_BACK : 0);
             records.push_back(record);
             data::RenderInstance& instance = instances_.emplace_back();
             instance.image = record.image;

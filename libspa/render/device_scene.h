@@ -33,6 +33,7 @@ private:
     void add_materials(const Gpu& gpu, const Scene& scene, const SceneTriangles& triangles);
     void add_lights(const Gpu& gpu, const Scene& scene);
     void add_triangle_instances(const Gpu& gpu, const SceneTriangles& triangles);
+    void load_maps(const Gpu& gpu, std::span<const MapPlacement> maps);
     void add_maps(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps);
     void add_top_level(const Gpu& gpu);
     // A buffer that lives as long as this; its address, 0 if there is nothing.
@@ -41,8 +42,9 @@ private:
     std::vector<vulkan::Buffer> buffers_;
     TriangleStructures static_, replaced_;
     std::vector<std::unique_ptr<vulkan::MapObject>> maps_;
-    std::vector<float> offsets_;                                    // of objects, 0: of what no map replaces
-    std::vector<data::RenderInstance> instances_;                   // by custom index
+    std::vector<std::size_t> map_of_placement_;   // index into maps_; of what is dropped: of no meaning
+    std::vector<float> offsets_;                  // of objects, 0: of what no map replaces
+    std::vector<data::RenderInstance> instances_; // by custom index
     std::vector<VkAccelerationStructureInstanceKHR> top_instances_; // the same
     VkDeviceAddress positions_ = 0, indices_ = 0;
     std::optional<vulkan::TopLevel> top_level_;

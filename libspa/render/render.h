@@ -17,7 +17,8 @@
 
 namespace spa::render {
 
-// Takes the place of all that a node and the nodes below it draw.
+// Takes the place of all that a node and the nodes below it draw. Placements of one map share what it takes
+// on the device, if their options are the same.
 struct MapPlacement {
     std::uint32_t node = 0; // index into Scene::nodes
     const SphericalMap* map = nullptr;
@@ -27,6 +28,8 @@ struct MapPlacement {
     // leave the solid that they begin in, because the points that hit lie in the solid and are to be lit all
     // the same.
     bool test_points = false;
+    // Nothing takes the place: rays that meet maps pass. `map` is null then.
+    bool dropped = false;
 };
 
 struct SceneMemory {                       // bytes on the device

@@ -59,7 +59,8 @@ private:
 std::vector<std::uint32_t> objects_of_nodes(const Scene& scene, std::span<const MapPlacement> maps) {
     std::vector<std::uint32_t> placed(scene.nodes.size(), 0);
     for (std::size_t i = 0; i < maps.size(); ++i) {
-        if (maps[i].map == nullptr) throw Error(ExitCode::usage, "a placement has no map");
+        if (maps[i].dropped != (maps[i].map == nullptr))
+            throw Error(ExitCode::usage, "a placement has no map, or is dropped and has one");
         if (maps[i].node >= scene.nodes.size())
             throw Error(ExitCode::usage, "a map is to replace node " + std::to_string(maps[i].node) +
                                              ", but the scene has " + std::to_string(scene.nodes.size()) +

@@ -28,7 +28,7 @@ struct SceneTriangles {
 };
 
 // For each node 1 + the number of the placement that replaces it, or 0. Throws Error{usage} for a placement
-// without map or node, or in the subtree of another.
+// without node, without map unless it is dropped, or in the subtree of another.
 std::vector<std::uint32_t> objects_of_nodes(const Scene& scene, std::span<const MapPlacement> maps);
 
 SceneTriangles group_triangles(const Scene& scene, std::span<const std::uint32_t> objects_of_nodes,

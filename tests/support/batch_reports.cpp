@@ -34,6 +34,7 @@ Json asset(const std::string& source, const std::string& status) {
         {"output_bytes", done ? Json(500) : Json(nullptr)},
         {"size", done ? Json("256") : Json(nullptr)},
         {"layers", done ? Json(2) : Json(nullptr)},
+        {"node", nullptr},
         {"figures", nullptr},
     };
 }
@@ -89,6 +90,7 @@ Json report(Json assets, double seconds) {
     }
     return {{"generator", {{"name", "spa"}, {"version", "0.1.0"}}},
             {"inputs", {"assets"}},
+            {"plan", nullptr},
             {"output", "maps"},
             {"shard", nullptr},
             {"jobs", 2},
