@@ -37,18 +37,19 @@ void check_inputs(const BakeArguments& arguments, const import::Report& source) 
                       arguments.make_folders ? OutputFolder::is_made : OutputFolder::is_there);
 }
 
-spa::import::Result read_asset(const BakeArguments& arguments) {
+SourceAsset read_asset(const BakeArguments& arguments) {
     const SlowStep step("reading " + arguments.input.filename().string(), arguments.quiet);
-    return spa::import::read_model(arguments.input, {.follow_links = arguments.follow_links});
+    return read_source_asset(arguments.input, arguments.settings.division(), arguments.follow_links);
 }
 
-bake::Result bake_with_progress(const BakeArguments& arguments, const Model& model) {
+bake::PartsResult bake_with_progress(const BakeArguments& arguments, const SourceAsset& source) {
     ProgressReport progress("baking " + arguments.input.filename().string(), arguments.quiet);
     try {
-        return bake::bake_model(model, arguments.settings.options, [&progress](double share) {
-            progress.update(share);
-            return interrupt_signal() == 0;
-        });
+        return bake::bake_parts(source.asset.model, source.partition, arguments.settings.options,
+                                [&progress](double share) {
+                                    progress.update(share);
+                                    return interrupt_signal() == 0;
+                                });
     } catch (const Error& error) {
         // The baker knows a model, not the file that it came from.
         if (error.code() != ExitCode::invalid_data) throw;
@@ -56,18 +57,31 @@ bake::Result bake_with_progress(const BakeArguments& arguments, const Model& mod
     }
 }
 
-measure::Measurement measure_with_progress(const BakeArguments& arguments, const Model& model,
-                                           const Part& part) {
+measure::Measurement measure_with_progress(const BakeArguments& arguments, const SourceAsset& source,
+                                           std::vector<Part>& parts) {
     ProgressReport progress("measuring " + arguments.output.filename().string(), arguments.quiet);
     measure::MeasureOptions options;
     options.color_samples = arguments.settings.options.samples;
     options.layers = arguments.settings.options.layers;
     options.threads = arguments.settings.options.threads;
     options.rays = measure::RayOptions{}.rays;
-    return measure::measure_map(model, part, options, [&progress](double share) {
-        progress.update(share);
-        return interrupt_signal() == 0;
-    });
+    measure::PartsMeasurement measured = measure::measure_parts(source.asset.model, source.partition, parts,
+                                                                options, [&progress](double share) {
+                                                                    progress.update(share);
+                                                                    return interrupt_signal() == 0;
+                                                                });
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        parts[i].errors = measure::error_figures(parts.size() == 1 ? measured.whole : measured.parts[i]);
+    return std::move(measured.whole);
+}
+
+std::vector<Part> without_images(const std::vector<Part>& parts) {
+    std::vector<Part> bare = parts;
+    for (Part& part : bare) {
+        part.layers.clear();
+        part.mixed = part.folds = {};
+    }
+    return bare;
 }
 
 std::vector<std::byte> encode(const SphericalMap& map, const BakeArguments& arguments) {
@@ -83,7 +97,13 @@ std::vector<std::byte> encode(const SphericalMap& map, const BakeArguments& argu
 } // namespace
 
 BakeFacts BakedFile::facts(const BakeArguments& arguments) const {
-    return {arguments, source, report, measurement ? &*measurement : nullptr};
+    return {arguments,
+            source.asset,
+            source.partition,
+            part_reports,
+            parts,
+            report,
+            measurement ? &*measurement : nullptr};
 }
 
 BakedFile bake_file(const BakeArguments& arguments) {
@@ -92,16 +112,16 @@ BakedFile bake_file(const BakeArguments& arguments) {
     check_inputs(arguments, {});
     BakedFile baked;
     baked.source = read_asset(arguments);
-    check_inputs(arguments, baked.source.report);
+    check_inputs(arguments, baked.source.asset.report);
 
     const InterruptGuard guard;
-    bake::Result result = bake_with_progress(arguments, baked.source.model);
-    baked.report = std::move(result.report);
+    bake::PartsResult result = bake_with_progress(arguments, baked.source);
+    baked.part_reports = std::move(result.reports);
+    baked.report = bake::sum(baked.part_reports, baked.source.partition);
     SphericalMap& map = result.map.map;
-    if (arguments.settings.measure) {
-        baked.measurement = measure_with_progress(arguments, baked.source.model, map.parts.front());
-        map.parts.front().errors = measure::error_figures(*baked.measurement);
-    }
+    if (arguments.settings.measure)
+        baked.measurement = measure_with_progress(arguments, baked.source, map.parts);
+    baked.parts = without_images(map.parts);
     map.metadata = metadata(baked.facts(arguments));
     baked.bytes = encode(map, arguments);
     InterruptGuard::check();

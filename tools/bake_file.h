@@ -11,8 +11,10 @@
 namespace spa::tools {
 
 struct BakedFile {
-    import::Result source;
-    bake::Report report;
+    SourceAsset source;
+    std::vector<bake::Report> part_reports;
+    bake::Report report;                             // their sum
+    std::vector<Part> parts;                         // without their images
     std::optional<measure::Measurement> measurement; // if settings.measure
     std::vector<std::byte> bytes;                    // of the file
     double seconds = 0;                              // reading and writing included

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace spa::tools {
 
 namespace {
@@ -74,6 +76,29 @@ Json counts_json(const BakeFacts& facts) {
     };
 }
 
+Json vector_json(Vec3d v) { return {v.x, v.y, v.z}; }
+
+Json parts_json(const BakeFacts& facts) {
+    Json parts = Json::array();
+    for (std::size_t i = 0; i < facts.parts.size(); ++i) {
+        const Part& part = facts.parts[i];
+        const bake::Report& bake = facts.part_reports[i];
+        parts.push_back({
+            {"name", facts.partition[i].name},
+            {"node", part.node},
+            {"joint", part.joint},
+            {"triangles", bake.triangles},
+            {"components", bake.components},
+            {"center", vector_json(part.center)},
+            {"radius", part.radius},
+            {"center_inside", bake.center_inside},
+            {"layers", layers_json(bake)},
+            {"mixed_triangles", bake.mixed_triangles ? Json(*bake.mixed_triangles) : Json(nullptr)},
+        });
+    }
+    return parts;
+}
+
 // Messages begin with the path as it was given; in a file only the name may appear.
 std::string without_folder(std::string message, const std::filesystem::path& path) {
     const std::string full = path.string(), name = path.filename().string();
@@ -103,6 +128,16 @@ std::string mesh_text(const bake::Report& bake) {
     return text + (bake.center_inside ? ", centre inside the solid" : ", centre outside the solid");
 }
 
+std::string parts_text(const BakeFacts& facts) {
+    std::uint64_t most = 0, least = UINT64_MAX;
+    for (const bake::Report& part : facts.part_reports) {
+        most = std::max(most, part.triangles);
+        least = std::min(least, part.triangles);
+    }
+    return std::to_string(facts.parts.size()) + ", by " + name(facts.arguments.settings.parts) + ", of " +
+           std::to_string(least) + " to " + std::to_string(most) + " triangles";
+}
+
 std::string measured_text(const measure::Measurement& m) {
     return "texels to source " + significant(m.texel_distance.max, 3) + " R at most, source to map " +
            significant(m.surface_distance.max, 3) + " R, " + percent(m.captured_area, 2) + " captured" +
@@ -119,6 +154,7 @@ std::string metadata(const BakeFacts& facts) {
     for (const std::string& warning : warnings(facts))
         messages.push_back(without_folder(warning, facts.arguments.input));
     report["warnings"] = messages;
+    if (facts.parts.size() > 1) report["parts"] = parts_json(facts);
     Json json = {
         {"generator", {{"name", "spa"}, {"version", SPA_VERSION}}},
         {"key", bake_key(facts)},
@@ -147,6 +183,7 @@ Json report_json(const BakeFacts& facts, Json output, double seconds) {
     Json report = counts_json(facts);
     if (!facts.bake.gl.empty()) report["gl"] = facts.bake.gl;
     report["warnings"] = warnings(facts);
+    report["parts"] = parts_json(facts);
     return {
         {"key", bake_key(facts)},
         {"source", source_json(facts)},
@@ -166,6 +203,7 @@ std::string report_text(const BakeFacts& facts, std::uint64_t output_bytes, doub
                                std::to_string(facts.source.model.positions.size()) + " vertices, " +
                                std::to_string(bake.triangles) + " triangles");
     text += line("mesh", mesh_text(bake));
+    if (facts.parts.size() > 1) text += line("parts", parts_text(facts));
     text += line("map", options_text(facts.arguments.settings.options));
     if (!bake.gl.empty()) text += line("gl", bake.gl);
     for (std::size_t i = 0; i < bake.layers.size(); ++i)

@@ -6,8 +6,8 @@
 #include "bake_arguments.h"
 
 #include "../formats/import/import.h"
-#include "../libspa/bake/bake.h"
-#include "../libspa/measure/measure_map.h"
+#include "../libspa/bake/bake_parts.h"
+#include "../libspa/measure/measure_parts.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -21,7 +21,10 @@ namespace spa::tools {
 struct BakeFacts {
     const BakeArguments& arguments;
     const import::Result& source;
-    const bake::Report& bake;
+    const Partition& partition;
+    const std::vector<bake::Report>& part_reports;     // one a piece
+    const std::vector<Part>& parts;                    // the same
+    const bake::Report& bake;                          // of all
     const measure::Measurement* measurement = nullptr; // null: not measured
 };
 

@@ -131,6 +131,21 @@ void define_map_options(CLI::App& app, Given& given) {
         "and how they go on: about a tenth of the file, for far fewer wrong hits at silhouettes",
         [&given](Folds folds) { given.settings.options.folds = folds == Folds::on; })
         ->default_str(name(defaults.folds ? Folds::on : Folds::off));
+    add_choice<PartsKind>(
+        app, "--parts",
+        {PartsKind::whole, PartsKind::components, PartsKind::nodes, PartsKind::bones, PartsKind::automatic},
+        "What gets a map with a sphere of its own: the whole object; each connected piece of its surface; "
+        "what each node of the file draws, or what follows each joint of its skins, so that the parts can be "
+        "moved by its animations; or as many pieces as it takes for the layers to hold the surface",
+        [&given](PartsKind kind) { given.settings.parts = kind; })
+        ->default_str(name(PartsKind::whole));
+    add_text(app, "--max-parts", "N",
+             "At most so many parts, 1 to 4096. Of components the smallest are put together with their "
+             "neighbours; more nodes or joints are an error",
+             [&given](const std::string& text) {
+                 given.settings.max_parts = parse_number("--max-parts", text, 1, most_parts);
+             })
+        ->default_str(std::to_string(default_max_parts));
     add_choice<bake::Frame>(app, "--frame", {bake::Frame::sphere, bake::Frame::affine},
                             "The space that is baked: object space, or one stretched so that the oriented "
                             "bounding box is a cube, which suits long and flat objects",
@@ -206,6 +221,8 @@ nlohmann::ordered_json options_json(const BakeSettings& settings) {
         {"normals", name(options.normals)},
         {"layers", options.layers},
         {"folds", name(options.folds ? Folds::on : Folds::off)},
+        {"parts", name(settings.parts)},
+        {"max_parts", settings.max_parts},
         {"frame", name(options.frame)},
         {"center", name(options.center)},
         {"baker", name(options.baker)},

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "arguments.h"
+#include "source_asset.h"
 
 #include "../libspa/bake/bake_options.h"
 
@@ -16,8 +17,12 @@ namespace spa::tools {
 
 struct BakeSettings {
     bake::Options options;
+    PartsKind parts = PartsKind::whole;
+    std::uint32_t max_parts = default_max_parts;
     bool compress = true; // zstd
     bool measure = false;
+
+    [[nodiscard]] Division division() const { return {parts, max_parts, options.layers}; }
 };
 
 // Adds the options to the parser. The function returned is called after parsing and fills in what was not

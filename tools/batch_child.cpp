@@ -38,10 +38,11 @@ void bake(const ChildTask& task, AssetResult& result) {
     clock_gettime(CLOCK_REALTIME, &started);
     const BakedFile baked = bake_file(arguments);
     const BakeFacts facts = baked.facts(arguments);
-    remember_sources(arguments.output, baked.source.report, bake_key(facts), started);
+    remember_sources(arguments.output, baked.source.asset.report, bake_key(facts), started);
     result.status = AssetStatus::baked;
     result.warnings = warnings(facts);
-    for (const import::SourceFile& file : baked.source.report.files) result.facts.source_bytes += file.bytes;
+    for (const import::SourceFile& file : baked.source.asset.report.files)
+        result.facts.source_bytes += file.bytes;
     result.facts.triangles = baked.report.triangles;
     result.facts.bytes = baked.bytes.size();
     if (baked.measurement) result.facts.figures = figures_json(*baked.measurement).dump();

@@ -59,16 +59,19 @@ Picture draw_surface(const measure::Measurement& measurement, Mapping mapping, b
 
 } // namespace
 
-Picture heat_sheet(const Part& part, const measure::Measurement& measurement, const std::string& title) {
+Picture heat_sheet(const std::vector<Part>& parts, const measure::Measurement& measurement,
+                   const std::string& title) {
+    const Mapping mapping = parts.front().mapping;
     const SheetScale scale(measurement.texels.size());
     std::vector<SheetRow> rows;
     rows.push_back(
         {"the source",
-         {make_cell("captured, to the map", draw_surface(measurement, part.mapping, true), scale),
-          make_cell("not captured, to the map", draw_surface(measurement, part.mapping, false), scale)}});
+         {make_cell("captured, to the map", draw_surface(measurement, mapping, true), scale),
+          make_cell("not captured, to the map", draw_surface(measurement, mapping, false), scale)}});
     for (const TexelErrors& errors : measurement.texels) {
-        const ImageView color = measure::surface_of(part, errors.layer, errors.side).color;
-        rows.push_back({"layer " + std::to_string(errors.layer) + "  " + measure::name(errors.side),
+        const ImageView color = measure::surface_of(parts[errors.part], errors.layer, errors.side).color;
+        rows.push_back({(parts.size() > 1 ? "part " + std::to_string(errors.part) + "  " : "") + "layer " +
+                            std::to_string(errors.layer) + "  " + measure::name(errors.side),
                         {make_cell("the map", color.empty() ? Picture{} : color_picture(color), scale),
                          make_cell("texel to source", draw(errors, depth_heat, errors.distance), scale),
                          make_cell("normal", draw(errors, normal_heat, errors.normal), scale),

@@ -34,7 +34,7 @@ std::uint64_t raw_bytes(Sections sections) {
 // Of other sections part has no meaning, or none that is known in the file's version.
 bool has_part(const SectionEntry& section) {
     return container::is_image(section.type) || section.type == container::type_mixed ||
-           section.type == container::type_fold;
+           section.type == container::type_fold || section.type == container::type_bind;
 }
 
 const char* side_name(const SectionEntry& section) {

@@ -4,10 +4,13 @@
 #include "map_source.h"
 #include "output.h"
 #include "progress.h"
+#include "source_asset.h"
 #include "validate_report.h"
 #include "verb.h"
 
 #include "arguments.h"
+
+#include "../libspa/bake/bake_parts.h"
 
 #include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
@@ -105,10 +108,9 @@ const nlohmann::ordered_json& bake_option(const nlohmann::ordered_json& metadata
     return options.is_object() && options.contains(name) ? options[name] : otherwise;
 }
 
-spa::import::Result read_source(const Arguments& arguments, const MapFile& file,
-                                const std::filesystem::path& path) {
+SourceAsset read_source(const Arguments& arguments, const MapFile& file, const std::filesystem::path& path) {
     try {
-        return spa::import::read_model(path, {.follow_links = arguments.follow_links});
+        return read_source_asset(path, division_of(parse_metadata(file.map())), arguments.follow_links);
     } catch (const Error& error) {
         if (!arguments.source.empty()) throw;
         throw Error(error.code(), std::string(error.what()) + " (the container " + file.name +
@@ -116,21 +118,37 @@ spa::import::Result read_source(const Arguments& arguments, const MapFile& file,
     }
 }
 
+std::vector<measure::Finding> find_defects(const std::vector<Part>& parts, const Partition& partition,
+                                           const measure::PartsMeasurement& measured,
+                                           double color_tolerance) {
+    if (parts.size() == 1) return measure::find_defects(parts.front(), measured.whole, color_tolerance);
+    std::vector<measure::Finding> all;
+    for (std::uint32_t i = 0; i < parts.size(); ++i) {
+        for (measure::Finding& finding :
+             measure::find_defects(parts[i], measured.parts[i], color_tolerance)) {
+            finding.message = bake::part_name(partition, i) + ": " + finding.message;
+            if (finding.at) finding.at->part = i;
+            all.push_back(std::move(finding));
+        }
+    }
+    return all;
+}
+
 void measure_source(const Arguments& arguments, const MapFile& file, const std::filesystem::path& path,
                     Validation& validation) {
     const std::string title = std::filesystem::path(file.name).filename().string();
-    spa::import::Result source;
+    SourceAsset source;
     {
         const SlowStep step("reading " + path.filename().string(), arguments.quiet);
         source = read_source(arguments, file, path);
     }
     if (!arguments.heat.empty()) {
         std::vector<std::filesystem::path> inputs{file.name, path};
-        for (const import::SourceFile& used : source.report.files)
+        for (const import::SourceFile& used : source.asset.report.files)
             inputs.push_back(path.parent_path() / used.name);
         check_output_file(arguments.heat, inputs);
     }
-    validation.source = {path, differing_files(file, source.report)};
+    validation.source = {path, differing_files(file, source.asset.report)};
     if (validation.source->differing && !validation.source->differing->empty()) {
         std::string names;
         for (const std::string& name : *validation.source->differing)
@@ -138,12 +156,12 @@ void measure_source(const Arguments& arguments, const MapFile& file, const std::
         std::cerr << "spa: warning: " << path.string() << " is not what " << file.name
                   << " was baked from: the hash differs for " << names << '\n';
     }
-    if (file.map().parts.size() > 1) {
-        if (!arguments.needs_source()) return;
-        throw Error(ExitCode::unsupported, file.name + ": has " + std::to_string(file.map().parts.size()) +
-                                               " parts; only maps of one part can be measured");
-    }
-    const Part& part = file.map().parts.front();
+    const std::vector<Part>& parts = file.map().parts;
+    if (parts.size() != source.partition.size())
+        throw Error(ExitCode::invalid_data,
+                    file.name + ": has " + std::to_string(parts.size()) + " parts, but " + path.string() +
+                        " divides into " + std::to_string(source.partition.size()) +
+                        " by the options of its bake; is it what the map was baked from?");
     const auto metadata = parse_metadata(file.map());
     const auto samples = bake_option(metadata, "samples", 1);
     const auto layers = bake_option(metadata, "layers", 0);
@@ -154,24 +172,26 @@ void measure_source(const Arguments& arguments, const MapFile& file, const std::
     if (layers.is_number_unsigned() && layers.get<std::uint64_t>() <= 64)
         options.layers = layers.get<std::uint32_t>();
     options.rays = arguments.needed_rays();
-    if (options.rays > 0 && part.mapping != Mapping::octahedral)
+    if (const Part& part = parts.front(); options.rays > 0 && part.mapping != Mapping::octahedral)
         throw Error(ExitCode::unsupported, file.name +
                                                ": rays are traced through octahedral maps; this one is " +
                                                name(part.mapping));
     ProgressReport progress("measuring " + title, arguments.quiet);
     const InterruptGuard guard;
-    validation.measurement = measure::measure_map(source.model, part, options, [&](double share) {
-        progress.update(share);
-        return interrupt_signal() == 0;
-    });
+    validation.measurement =
+        measure::measure_parts(source.asset.model, source.partition, parts, options, [&](double share) {
+            progress.update(share);
+            return interrupt_signal() == 0;
+        });
+    const measure::PartsMeasurement& measured = *validation.measurement;
     // Colours filtered by a texture unit may round otherwise; the bakers' agreement allows as much. Of
     // several samples a texel those on edges are not looked at again.
     const double color_tolerance = orbit ? 1.0 : options.color_samples > 1 ? 0.05 : 0.0;
-    validation.findings = measure::find_defects(part, *validation.measurement, color_tolerance);
-    validation.thresholds = judge(arguments, *validation.measurement);
+    validation.findings = find_defects(parts, source.partition, measured, color_tolerance);
+    validation.thresholds = judge(arguments, measured.whole);
     if (arguments.heat.empty()) return;
     StagedFile staged(arguments.heat);
-    staged.write(encode_png(heat_sheet(part, *validation.measurement, title)));
+    staged.write(encode_png(heat_sheet(parts, measured.whole, title)));
     InterruptGuard::check();
     staged.commit();
 }

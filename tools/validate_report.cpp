@@ -21,11 +21,8 @@ Json distribution_json(const Distribution& d) {
 
 Json place_json(const std::optional<WorstTexel>& at) {
     if (!at) return nullptr;
-    return {{"layer", at->layer},
-            {"side", measure::name(at->side)},
-            {"x", at->texel.x},
-            {"y", at->texel.y},
-            {"value", at->value}};
+    return {{"part", at->part}, {"layer", at->layer}, {"side", measure::name(at->side)},
+            {"x", at->texel.x}, {"y", at->texel.y},   {"value", at->value}};
 }
 
 Json coverage_json(const measure::CoverageFigures& c) {
@@ -114,12 +111,15 @@ Json validate_json(const MapFile& file, const Validation& v) {
                   {"differing", v.source->differing.value_or(std::vector<std::string>{})}};
     }
     Json worst = nullptr;
+    Json parts = Json::array();
     if (v.measurement) {
-        worst = {{"texel_distance", place_json(v.measurement->worst_distance)},
-                 {"depth", place_json(v.measurement->worst_depth)},
-                 {"normal_angle", place_json(v.measurement->worst_normal)},
-                 {"color_difference", place_json(v.measurement->worst_color)},
-                 {"alpha_difference", place_json(v.measurement->worst_alpha)}};
+        const Measurement& whole = v.measurement->whole;
+        worst = {{"texel_distance", place_json(whole.worst_distance)},
+                 {"depth", place_json(whole.worst_depth)},
+                 {"normal_angle", place_json(whole.worst_normal)},
+                 {"color_difference", place_json(whole.worst_color)},
+                 {"alpha_difference", place_json(whole.worst_alpha)}};
+        for (const Measurement& part : v.measurement->parts) parts.push_back(figures_json(part));
     }
     Json findings = Json::array();
     for (const measure::Finding& finding : v.findings)
@@ -135,10 +135,15 @@ Json validate_json(const MapFile& file, const Validation& v) {
         met = met && judged.met;
     }
     return {
-        {"file", file.name},        {"valid", true},
-        {"source", source},         {"figures", v.measurement ? figures_json(*v.measurement) : Json(nullptr)},
-        {"worst", worst},           {"findings", findings},
-        {"thresholds", thresholds}, {"thresholds_met", met},
+        {"file", file.name},
+        {"valid", true},
+        {"source", source},
+        {"figures", v.measurement ? figures_json(v.measurement->whole) : Json(nullptr)},
+        {"parts", parts},
+        {"worst", worst},
+        {"findings", findings},
+        {"thresholds", thresholds},
+        {"thresholds_met", met},
     };
 }
 
@@ -146,8 +151,10 @@ std::string validate_text(const MapFile& file, const Validation& v) {
     std::string text = file.name + ": valid container\n";
     if (!v.source) return text + line("source", "none found beside it: not measured (--source)");
     text += line("source", source_text(*v.source));
-    if (!v.measurement) return text + line("not measured", "only maps of one part can be");
-    const Measurement& m = *v.measurement;
+    const Measurement& m = v.measurement->whole;
+    if (file.map().parts.size() > 1)
+        text += line("parts",
+                     std::to_string(file.map().parts.size()) + ", together; R is the radius of the whole");
     text += surface_text(m);
     text += line("hausdorff", significant(m.hausdorff(), 3) + " R");
     text += line("captured", percent(m.captured_area, 2) + " of the source's area");

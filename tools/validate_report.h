@@ -5,6 +5,7 @@
 #include "map_file.h"
 
 #include "../libspa/measure/findings.h"
+#include "../libspa/measure/measure_parts.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -31,8 +32,8 @@ struct SourceFacts {
 };
 
 struct Validation {
-    std::optional<SourceFacts> source;               // none: the container check alone
-    std::optional<measure::Measurement> measurement; // with a source, of maps of one part
+    std::optional<SourceFacts> source;                    // none: the container check alone
+    std::optional<measure::PartsMeasurement> measurement; // with a source
     std::vector<measure::Finding> findings;
     std::vector<Judged> thresholds;
 };

@@ -131,6 +131,18 @@ PartRecord decode_part(std::span<const std::byte, part_record_size> bytes) {
     return record;
 }
 
+Affine decode_bind(std::span<const std::byte, bind_size> bytes) {
+    Affine map;
+    for (std::size_t i = 0; i < 3; ++i) map.linear.row[i] = load_vector(bytes.data() + 24 * i);
+    map.translation = load_vector(bytes.data() + 72);
+    return map;
+}
+
+void encode_bind(const Affine& to_node, std::span<std::byte, bind_size> bytes) {
+    for (std::size_t i = 0; i < 3; ++i) store_vector(bytes.data() + 24 * i, to_node.linear.row[i]);
+    store_vector(bytes.data() + 72, to_node.translation);
+}
+
 void encode_part(const Part& part, std::span<std::byte, part_record_size> bytes) {
     std::byte* out = bytes.data();
     std::fill(bytes.begin(), bytes.end(), std::byte{0});

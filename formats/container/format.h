@@ -17,11 +17,12 @@ namespace spa::container {
 constexpr std::array<std::uint8_t, 12> identifier{0xAB, 0x53, 0x50, 0x41, 0x20, 0x4D,
                                                   0x61, 0x70, 0x0D, 0x0A, 0x1A, 0x0A};
 constexpr std::uint16_t version_major = 1;
-constexpr std::uint16_t version_minor = 2;
+constexpr std::uint16_t version_minor = 3;
 
 constexpr std::size_t header_size = 64;
 constexpr std::size_t section_entry_size = 64;
 constexpr std::size_t part_record_size = 192;
+constexpr std::size_t bind_size = 96;
 constexpr std::uint64_t section_alignment = 64;
 
 // The name's characters in file order, first character in the lowest byte.
@@ -37,18 +38,20 @@ constexpr std::uint32_t type_color = section_type("COLR");
 constexpr std::uint32_t type_metadata = section_type("META");
 constexpr std::uint32_t type_mixed = section_type("MIXD"); // since minor version 1
 constexpr std::uint32_t type_fold = section_type("FOLD");  // since minor version 2
+constexpr std::uint32_t type_bind = section_type("BIND");  // since minor version 3
 constexpr bool is_image(std::uint32_t type) {
     return type == type_depth || type == type_normal || type == type_color;
 }
 // A reader may skip it: its required flag is clear.
 constexpr bool is_optional(std::uint32_t type) {
-    return type == type_metadata || type == type_mixed || type == type_fold;
+    return type == type_metadata || type == type_mixed || type == type_fold || type == type_bind;
 }
 // Whether the type has a meaning in a file of this minor version. In an older file than its own it is any
 // other unknown type, about whose content nothing was promised.
 constexpr bool is_known(std::uint32_t type, std::uint16_t minor) {
     return is_image(type) || type == type_part || type == type_metadata ||
-           (type == type_mixed && minor >= 1) || (type == type_fold && minor >= 2);
+           (type == type_mixed && minor >= 1) || (type == type_fold && minor >= 2) ||
+           (type == type_bind && minor >= 3);
 }
 // "PART", ...; bytes that are not printable ASCII come out as '?'.
 std::string type_name(std::uint32_t type);
@@ -108,6 +111,10 @@ SectionEntry decode_section_entry(std::span<const std::byte, section_entry_size>
 void encode_section_entry(const SectionEntry& entry, std::span<std::byte, section_entry_size> bytes);
 
 PartRecord decode_part(std::span<const std::byte, part_record_size> bytes);
+// Part::to_node: linear part row by row, then the translation.
+Affine decode_bind(std::span<const std::byte, bind_size> bytes);
+void encode_bind(const Affine& to_node, std::span<std::byte, bind_size> bytes);
+
 // Layer count = part.layers.size(). NaN is stored as the one quiet NaN 0x7FC00000.
 void encode_part(const Part& part, std::span<std::byte, part_record_size> bytes);
 

@@ -94,6 +94,11 @@ public:
             loaded_.map.metadata = text;
             return status;
         }
+        if (entry.type == type_bind) {
+            Affine& to_node = loaded_.map.parts[entry.part].to_node;
+            to_node = decode_bind(bytes.view.first<bind_size>());
+            return check_bind(structure_, i, to_node);
+        }
         if (entry.type == type_mixed)
             loaded_.map.parts[entry.part].mixed = bytes.view;
         else if (entry.type == type_fold)

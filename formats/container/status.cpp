@@ -29,7 +29,7 @@ std::string section_name(const Status& status) {
 } // namespace
 
 // Ascending. Names and texts are those of SPA.md, letter for letter: a test compares.
-const std::array<IssueEntry, 73> issue_table{{
+const std::array<IssueEntry, 77> issue_table{{
     {Issue::file_too_short, "file_too_short", "the file is shorter than a header", again},
     {Issue::not_a_spa_file, "not_a_spa_file", "the file does not begin with the identifier",
      "This is another kind of file."},
@@ -97,6 +97,11 @@ const std::array<IssueEntry, 73> issue_table{{
     {Issue::wrong_fold_length, "wrong_fold_length",
      "the raw length of a FOLD section is zero, not a multiple of 10 or too large for its part's map",
      writer},
+    {Issue::bind_fields_not_zero, "bind_fields_not_zero",
+     "a BIND section has layer, side, element format, width or height", writer},
+    {Issue::bind_part_not_valid, "bind_part_not_valid",
+     "a BIND section names a part that does not exist or follows no node", writer},
+    {Issue::wrong_bind_length, "wrong_bind_length", "the raw length of a BIND section is not 96", writer},
 
     {Issue::wrong_parts_length, "wrong_parts_length", "the length of PART is zero or not a multiple of 192",
      writer},
@@ -111,6 +116,9 @@ const std::array<IssueEntry, 73> issue_table{{
     {Issue::part_reserved_not_zero, "part_reserved_not_zero", "a reserved byte of a part is not zero",
      writer},
     {Issue::unknown_part_flags, "unknown_part_flags", "an undefined flag of a part is set", writer},
+    {Issue::bind_not_valid, "bind_not_valid",
+     "the matrix of a BIND section has a number that is not finite or out of range, or cannot be inverted",
+     writer},
 
     {Issue::padding_not_zero, "padding_not_zero", "a byte of padding is not zero", again},
     {Issue::checksum_mismatch, "checksum_mismatch", "the stored bytes do not have their checksum", again},

@@ -53,6 +53,9 @@ enum class Issue : std::uint16_t {
     fold_fields_not_zero = 225,
     fold_part_not_valid = 226,
     wrong_fold_length = 227,
+    bind_fields_not_zero = 228,
+    bind_part_not_valid = 229,
+    wrong_bind_length = 230,
 
     wrong_parts_length = 301,
     part_number_not_valid = 302,
@@ -63,6 +66,7 @@ enum class Issue : std::uint16_t {
     error_figure_not_valid = 307,
     part_reserved_not_zero = 308,
     unknown_part_flags = 309,
+    bind_not_valid = 310,
 
     padding_not_zero = 401,
     checksum_mismatch = 402,
@@ -105,7 +109,7 @@ struct IssueEntry {
     std::string_view advice; // what to do
 };
 
-extern const std::array<IssueEntry, 73> issue_table;
+extern const std::array<IssueEntry, 77> issue_table;
 
 constexpr std::uint32_t no_section = 0xFFFFFFFF;
 

@@ -45,9 +45,12 @@ Status check_entries(const Structure& structure, const Limits& limits);
 // The records of the PART section, whose checksum is right. Fills structure.parts. O(parts).
 Status check_parts(std::span<const std::byte> bytes, const Limits& limits, Structure& structure);
 
+// What a BIND section holds: finite, not too large, invertible.
+Status check_bind(const Structure& structure, std::size_t section, const Affine& to_node);
+
 // Every image belongs to a part, has a possible size, is there once; none is missing. The bits of mixed
 // triangles belong to an octahedral part and are as many as it has, folds to one with such bits, and are no
-// more than there can be. O(sections log sections).
+// more than there can be; what binds a part belongs to one that follows a node. O(sections log sections).
 Status check_images(const Structure& structure);
 
 // The section of an image, or of a part's mixed triangles or folds (layer 0, outer);

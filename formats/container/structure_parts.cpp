@@ -103,6 +103,12 @@ Status check_triangles_place(const Structure& structure, std::size_t i, Issue is
     return octahedral ? Status{} : at_section(issue, structure, i);
 }
 
+Status check_bind_place(const Structure& structure, std::size_t i) {
+    const std::uint32_t part = structure.sections[i].part;
+    const bool follows = part < structure.parts.size() && structure.parts[part].part.node >= 0;
+    return follows ? Status{} : at_section(Issue::bind_part_not_valid, structure, i);
+}
+
 // cells: of the map. fold: may be nullptr.
 Status check_fold_length(const Structure& structure, const SectionEntry* fold, bool has_mixed,
                          std::uint32_t cells) {
@@ -172,6 +178,14 @@ Status check_parts(std::span<const std::byte> bytes, const Limits& limits, Struc
     return {};
 }
 
+Status check_bind(const Structure& structure, std::size_t section, const Affine& to_node) {
+    for (std::size_t i = 0; i < 4; ++i)
+        if (!is_position(i < 3 ? to_node.linear.row[i] : to_node.translation))
+            return in_section(Issue::bind_not_valid, structure, section, 24 * i);
+    return is_invertible(to_node.linear) ? Status{}
+                                         : in_section(Issue::bind_not_valid, structure, section, 0);
+}
+
 Status check_images(const Structure& structure) {
     std::vector<Index> index;
     index.reserve(structure.sections.size());
@@ -191,6 +205,7 @@ Status check_images(const Structure& structure) {
             status = check_triangles_place(structure, i, Issue::mixed_part_not_valid);
         if (type == type_fold && structure.knows(type))
             status = check_triangles_place(structure, i, Issue::fold_part_not_valid);
+        if (type == type_bind && structure.knows(type)) status = check_bind_place(structure, i);
         if (!status.ok()) return status;
     }
     // A missing image ends the search, so that the work is bounded by the sections and not by the layer

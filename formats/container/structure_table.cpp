@@ -79,14 +79,17 @@ Status check_known_entry(const Structure& structure, std::size_t i, const Limits
     if (!is_image(entry.type)) {
         const bool only_part = entry.layer == 0 && entry.side == 0 && std::uint32_t(entry.format) == 0 &&
                                entry.width == 0 && entry.height == 0;
-        const bool of_part = entry.type == type_mixed || entry.type == type_fold;
+        const bool of_part = entry.type == type_mixed || entry.type == type_fold || entry.type == type_bind;
         if (of_part && !only_part)
-            return at_field(entry.type == type_mixed ? Issue::mixed_fields_not_zero
-                                                     : Issue::fold_fields_not_zero,
+            return at_field(entry.type == type_mixed  ? Issue::mixed_fields_not_zero
+                            : entry.type == type_fold ? Issue::fold_fields_not_zero
+                                                      : Issue::bind_fields_not_zero,
                             structure, i, Field::layer);
         if (!of_part && (!only_part || entry.part != 0))
             return at_field(Issue::fields_not_zero, structure, i, Field::part);
     }
+    if (entry.type == type_bind && entry.raw_length != bind_size)
+        return at_field(Issue::wrong_bind_length, structure, i, Field::raw_length);
     if (entry.scheme == Scheme::none && entry.raw_length != entry.stored_length)
         return at_field(Issue::lengths_disagree, structure, i, Field::raw_length);
     if (entry.raw_length / largest_ratio > entry.stored_length)

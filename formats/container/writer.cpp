@@ -19,7 +19,7 @@ std::span<const std::byte> bytes_of(const std::string& text) {
 // The file as it will be, before compression: entries and, beside each, its raw bytes.
 struct Plan {
     Structure structure;
-    std::vector<std::byte> parts;
+    std::vector<std::byte> parts, binds;
     std::vector<std::span<const std::byte>> raw;
 };
 
@@ -39,6 +39,7 @@ public:
             encode_part(map.parts[i],
                         std::span(plan_.parts).subspan(i * part_record_size).first<part_record_size>());
         }
+        plan_.binds.resize(map.parts.size() * bind_size);
         add({.type = type_part, .flags = flag_required}, plan_.parts);
         if (!map.metadata.empty()) add({.type = type_metadata}, bytes_of(map.metadata));
         for (std::size_t i = 0; i < map.parts.size(); ++i) {
@@ -55,6 +56,10 @@ public:
             const Part& part = map.parts[i];
             if (!part.mixed.empty()) add({.type = type_mixed, .part = std::uint32_t(i)}, part.mixed);
             if (!part.folds.empty()) add({.type = type_fold, .part = std::uint32_t(i)}, part.folds);
+            if (part.to_node == Affine{}) continue;
+            const auto bind = std::span(plan_.binds).subspan(i * bind_size).first<bind_size>();
+            encode_bind(part.to_node, bind);
+            add({.type = type_bind, .part = std::uint32_t(i)}, bind);
         }
         return {};
     }
@@ -154,6 +159,9 @@ Status check_plan(const SphericalMap& map, Plan& plan) {
     Status status = check_parts(plan.parts, no_limits, plan.structure);
     if (status.ok()) status = check_entries(plan.structure, no_limits);
     if (status.ok()) status = check_images(plan.structure);
+    for (std::size_t i = 0; status.ok() && i < plan.structure.sections.size(); ++i)
+        if (const SectionEntry& entry = plan.structure.sections[i]; entry.type == type_bind)
+            status = check_bind(plan.structure, i, map.parts[entry.part].to_node);
     if (status.ok()) status = check_content(plan.structure, map);
     if (status.ok() && !map.metadata.empty()) status = check_metadata(plan.structure, 1, map.metadata);
     return status;

@@ -36,8 +36,9 @@ const char* lying_figure(const ErrorFigures& written, const ErrorFigures& measur
 } // namespace
 
 std::string place(const WorstTexel& at) {
-    return "layer " + std::to_string(at.layer) + " " + name(at.side) + ", texel (" +
-           std::to_string(at.texel.x) + ", " + std::to_string(at.texel.y) + ")";
+    return (at.part > 0 ? "part " + std::to_string(at.part) + " " : "") + "layer " +
+           std::to_string(at.layer) + " " + name(at.side) + ", texel (" + std::to_string(at.texel.x) + ", " +
+           std::to_string(at.texel.y) + ")";
 }
 
 std::vector<Finding> find_defects(const Part& part, const Measurement& m, double color_tolerance) {

@@ -16,7 +16,7 @@ struct Finding {
     std::optional<WorstTexel> at; // the worst or the first place; none for the radius
 };
 
-// "layer 0 outer, texel (12, 40)".
+// "layer 0 outer, texel (12, 40)"; of other parts than the first "part 3 layer 0 ...".
 std::string place(const WorstTexel& at);
 
 // color_tolerance: the mean difference of colour and of alpha, in codes of 255, that is not a finding. 0

@@ -9,6 +9,7 @@
 #include "../bake/arena.h"
 #include "../bake/center.h"
 #include "../core/error.h"
+#include "../mesh/part_frame.h"
 #include "../trace/scene.h"
 #include "../trace/triangle_scene.h"
 
@@ -16,7 +17,9 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace spa::measure {
@@ -62,31 +65,45 @@ Affine to_unit_sphere(Vec3d center, double radius) {
     return {{{{scale, 0, 0}, {0, scale, 0}, {0, 0, scale}}}, center * -scale};
 }
 
+// What the maps of all parts are traced from.
+class PartScene {
+public:
+    void add(const Part& part, const trace::CompileOptions& options, const Affine& placed) {
+        maps_.push_back(std::make_unique<trace::TraceMap>(part, options));
+        scene_.add(*maps_.back(), part, placed);
+    }
+    [[nodiscard]] const trace::Scene& scene() const { return scene_; }
+
+private:
+    std::vector<std::unique_ptr<trace::TraceMap>> maps_;
+    trace::Scene scene_;
+};
+
 class Measure {
 public:
-    Measure(const Model& model, const Part& part, const RayOptions& options, const bake::Progress& progress)
-        : model_(model), part_(part), options_(options), progress_(progress) {}
+    Measure(const Model& model, const Partition* partition, std::span<const Part> parts, Vec3d center,
+            const RayOptions& options, const bake::Progress& progress)
+        : model_(model), partition_(partition), parts_(parts), center_(center), options_(options),
+          progress_(progress) {}
 
     RayFigures run() {
-        const double radius = radius_about(model_, part_.center, Mat3{});
-        const bake::CenteredModel centered = bake::center_model(model_, {part_.center, Mat3{}, radius});
+        const double radius = radius_about(model_, center_, Mat3{});
+        const bake::CenteredModel centered = bake::center_model(model_, {center_, Mat3{}, radius});
         const trace::TriangleScene triangles(centered.positions, model_.triangles);
         const RayTruth judge(centered, triangles);
         const std::vector<trace::Ray> rays = secondary_rays(options_.rays, centered);
         step(0.1);
         const std::vector<RayAnswer> truth = judge.trace(rays);
         step(0.2);
-        const double cells = double(part_.layers.front().outer.depth.width) - 1;
         RayFigures figures;
-        figures.band_width = 2 * (2 / cells) * part_.radius / radius_about(model_, part_.center, part_.frame);
+        for (const Part& part : parts_) figures.band_width = std::max(figures.band_width, two_texels(part));
         const auto band = judge.silhouette_band(rays, truth, float(figures.band_width));
         step(0.5);
 
-        const Affine placed = to_unit_sphere(part_.center, radius);
-        const trace::TraceMap map(part_);
-        trace::Scene scene;
-        scene.add(map, part_, placed);
-        const std::vector<RayAnswer> answers = answers_of(scene, rays);
+        const Affine placed = to_unit_sphere(center_, radius);
+        PartScene maps;
+        for (const Part& part : parts_) maps.add(part, {}, placed);
+        const std::vector<RayAnswer> answers = answers_of(maps.scene(), rays);
         figures.errors = compare_answers(rays, truth, answers, band);
         step(0.6);
         attribute(rays, truth, answers, placed, figures);
@@ -96,6 +113,14 @@ public:
 private:
     void step(double share) const {
         if (progress_ && !progress_(share)) throw bake::Cancelled{};
+    }
+
+    // In units of the model's sphere: about the part's own centre, if it is the only one.
+    [[nodiscard]] double two_texels(const Part& part) const {
+        const double cells = double(part.layers.front().outer.depth.width) - 1;
+        const double whole = partition_ == nullptr ? radius_about(model_, part.center, part.frame)
+                                                   : radius_about(model_, center_, Mat3{});
+        return 2 * (2 / cells) * part.radius / whole;
     }
 
     // Which of the false answers the star envelope gives too.
@@ -109,40 +134,71 @@ private:
             extra.push_back(answers[i].hits());
         }
         if (wrong.empty()) return;
-        const double radius = radius_about(model_, part_.center, part_.frame);
-        const bake::OwnedMap star =
-            star_map(model_, part_, radius, options_.layers, options_.star_cells, options_.threads,
-                     [this](double share) { return !progress_ || progress_(0.6 + 0.4 * share); });
-        const Part& part = star.map.parts.front();
-        const trace::TraceMap map(part, {.layers = 0, .images = false});
-        trace::Scene scene;
-        scene.add(map, part, placed);
+        std::vector<bake::OwnedMap> stars;
+        PartScene maps;
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            stars.push_back(star_of(i));
+            maps.add(stars.back().map.parts.front(), {.layers = 0, .images = false}, placed);
+        }
         std::vector<std::uint8_t> blocked(wrong.size());
-        scene.occluded(wrong, trace::no_flags, blocked);
+        maps.scene().occluded(wrong, trace::no_flags, blocked);
         for (std::size_t i = 0; i < wrong.size(); ++i) {
             if (extra[i] && blocked[i] != 0) ++figures.star_extra;
             if (!extra[i] && blocked[i] == 0) ++figures.star_missed;
         }
     }
 
+    [[nodiscard]] bake::OwnedMap star_of(std::size_t i) const {
+        const Part& part = parts_[i];
+        const auto of_model = [&](const Model& model) {
+            const double radius = radius_about(model, part.center, part.frame);
+            const double count = double(parts_.size());
+            return star_map(model, part, radius, options_.layers, options_.star_cells, options_.threads,
+                            [&](double share) {
+                                return !progress_ || progress_(0.6 + 0.4 * (double(i) + share) / count);
+                            });
+        };
+        return partition_ == nullptr ? of_model(model_)
+                                     : of_model(piece_model(model_, (*partition_)[i].triangles));
+    }
+
     const Model& model_;
-    const Part& part_;
+    const Partition* partition_; // null: the model is the only piece
+    std::span<const Part> parts_;
+    Vec3d center_;
     const RayOptions& options_;
     const bake::Progress& progress_;
 };
 
 } // namespace
 
-RayFigures measure_rays(const Model& model, const Part& part, const RayOptions& options,
-                        const bake::Progress& progress) {
-    if (part.mapping != Mapping::octahedral)
-        throw Error(ExitCode::unsupported,
-                    std::string("rays are traced through octahedral maps; this one is ") +
-                        name(part.mapping));
+namespace {
+
+RayFigures run(const Model& model, const Partition* partition, std::span<const Part> parts, Vec3d center,
+               const RayOptions& options, const bake::Progress& progress) {
+    for (const Part& part : parts)
+        if (part.mapping != Mapping::octahedral)
+            throw Error(ExitCode::unsupported,
+                        std::string("rays are traced through octahedral maps; this one is ") +
+                            name(part.mapping));
     RayFigures figures;
     tbb::task_arena arena(bake::arena_concurrency(options.threads));
-    arena.execute([&] { figures = Measure(model, part, options, progress).run(); });
+    arena.execute([&] { figures = Measure(model, partition, parts, center, options, progress).run(); });
     return figures;
+}
+
+} // namespace
+
+RayFigures measure_rays(const Model& model, const Part& part, const RayOptions& options,
+                        const bake::Progress& progress) {
+    return run(model, nullptr, {&part, 1}, part.center, options, progress);
+}
+
+RayFigures measure_rays(const Model& model, const Partition& partition, std::span<const Part> parts,
+                        const RayOptions& options, const bake::Progress& progress) {
+    if (parts.size() == 1) return measure_rays(model, parts.front(), options, progress);
+    bool moved = false;
+    return run(model, &partition, parts, bounds_center(model, moved), options, progress);
 }
 
 } // namespace spa::measure

@@ -8,9 +8,10 @@
 
 #include "../bake/bake.h"
 #include "../core/spherical_map.h"
-#include "../mesh/model.h"
+#include "../mesh/partition.h"
 
 #include <cstdint>
+#include <span>
 
 namespace spa::measure {
 
@@ -47,5 +48,10 @@ struct RayFigures {
 // another, Error{invalid_data} for a model of zero size, and bake::Cancelled.
 RayFigures measure_rays(const Model& model, const Part& part, const RayOptions& options,
                         const bake::Progress& progress = {});
+
+// The same of a map of several parts, baked from these pieces of the model: rays are sent at all of them
+// together. Distances are then in units of the model's bounding sphere about the centre of its box.
+RayFigures measure_rays(const Model& model, const Partition& partition, std::span<const Part> parts,
+                        const RayOptions& options, const bake::Progress& progress = {});
 
 } // namespace spa::measure

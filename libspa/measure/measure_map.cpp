@@ -148,21 +148,33 @@ void measure_surface(const Model& model, const Part& part, const Reference& refe
     });
     meter.throw_if_cancelled();
 
-    std::vector<double> star;
-    std::vector<double> resolution;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         SurfaceError& error = result.surface[i];
         error.distance = float(distance[i]);
-        (error.captured ? resolution : star).push_back(error.captured ? exact_distance[i] : star_distance[i]);
+        if (error.captured)
+            result.resolution_distances.push_back(exact_distance[i]);
+        else
+            result.star_distances.push_back(star_distance[i]);
     }
-    result.captured_area = samples.empty() ? 0 : double(resolution.size()) / double(samples.size());
+}
+
+void summarize_surface(Measurement& result) {
+    std::vector<double> distance;
+    distance.reserve(result.surface.size());
+    for (const SurfaceError& error : result.surface) distance.push_back(double(error.distance));
+    result.captured_area =
+        distance.empty() ? 0 : double(result.resolution_distances.size()) / double(distance.size());
     result.surface_distance = distribution(std::move(distance));
-    result.star_error = distribution(std::move(star));
-    result.resolution_error = distribution(std::move(resolution));
+    result.star_error = distribution(result.star_distances);
+    result.resolution_error = distribution(result.resolution_distances);
 }
 
 WorstTexel worst_texel(const TexelErrors& errors, const Grid& grid, std::size_t i, double value) {
-    return {errors.layer, errors.side, {std::uint32_t(i % grid.width), std::uint32_t(i / grid.width)}, value};
+    return {errors.part,
+            errors.layer,
+            errors.side,
+            {std::uint32_t(i % grid.width), std::uint32_t(i / grid.width)},
+            value};
 }
 
 struct Values {
@@ -177,7 +189,8 @@ struct Values {
     }
 };
 
-void summarize(const Part& part, double scale, Measurement& result) {
+// parts: of the map. radius: R, in object space's unit of frames that do not stretch.
+void summarize_texels(std::span<const Part> parts, double radius, Measurement& result) {
     Values distance;
     Values depth;
     Values normal;
@@ -186,6 +199,8 @@ void summarize(const Part& part, double scale, Measurement& result) {
     CoverageFigures& coverage = result.coverage;
     QuantizationFigures& quantization = result.quantization;
     for (const TexelErrors& errors : result.texels) {
+        const Part& part = parts[errors.part];
+        const double scale = part.radius / radius;
         const double bound =
             depth_quantum_error(surface_of(part, errors.layer, errors.side).depth.format) * scale;
         const ImageView normals = surface_of(part, errors.layer, errors.side).normal;
@@ -245,12 +260,41 @@ Measurement measure_map(const Model& model, const Part& part, const MeasureOptio
                                      between(0.3 * end, 0.6 * end));
         measure_surface(model, part, reference, options, between(0.6 * end, end), result);
     });
-    summarize(part, part.radius / result.source_radius, result);
+    summarize_surface(result);
+    summarize_texels({&part, 1}, result.source_radius, result);
     if (traces) {
         const RayOptions rays{.rays = options.rays, .layers = options.layers, .threads = options.threads};
         result.rays = measure_rays(model, part, rays, between(end, 1));
     }
     return result;
+}
+
+Measurement combine(std::span<const Measurement> measurements, std::span<const Part> parts, double radius) {
+    Measurement whole;
+    whole.source_radius = radius;
+    std::uint64_t above = 0;
+    for (std::uint32_t i = 0; i < measurements.size(); ++i) {
+        const Measurement& one = measurements[i];
+        const double scale = one.source_radius / radius;
+        for (TexelErrors errors : one.texels) {
+            errors.part = i;
+            for (float& distance : errors.distance) distance *= float(scale);
+            for (float& depth : errors.depth) depth *= float(scale);
+            whole.texels.push_back(std::move(errors));
+        }
+        for (SurfaceError error : one.surface) {
+            error.distance *= float(scale);
+            whole.surface.push_back(error);
+        }
+        for (const double distance : one.star_distances) whole.star_distances.push_back(distance * scale);
+        for (const double distance : one.resolution_distances)
+            whole.resolution_distances.push_back(distance * scale);
+        above += one.quantization.above;
+    }
+    summarize_surface(whole);
+    summarize_texels(parts, radius, whole);
+    whole.quantization.above = above; // rounding scales with the part
+    return whole;
 }
 
 ErrorFigures error_figures(const Measurement& m) {

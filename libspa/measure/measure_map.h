@@ -9,6 +9,7 @@
 #include "texel_errors.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace spa::measure {
@@ -42,6 +43,7 @@ struct QuantizationFigures {
 
 // Where a figure is worst.
 struct WorstTexel {
+    std::uint32_t part = 0; // of the map
     std::uint32_t layer = 0;
     Side side = Side::outer;
     TexelIndex texel;
@@ -78,17 +80,22 @@ struct Measurement {
     std::optional<RayFigures> rays; // with MeasureOptions::rays
     std::vector<TexelErrors> texels;
     std::vector<SurfaceError> surface;
+    std::vector<double> star_distances, resolution_distances; // that star_error and resolution_error are of
 
     [[nodiscard]] double hausdorff() const {
         return texel_distance.max > surface_distance.max ? texel_distance.max : surface_distance.max;
     }
 };
 
-// Measures the only part of a map against the model that it was baked from. O((texels + surface_samples) *
+// Measures a part of a map against the model that it was baked from. O((texels + surface_samples) *
 // log(triangles + texels)). Throws Error (unsupported: a part whose surfaces differ in size; invalid_data: a
 // model of zero size; internal) and bake::Cancelled.
 Measurement measure_map(const Model& model, const Part& part, const MeasureOptions& options,
                         const bake::Progress& progress = {});
+
+// One measurement of a whole map from those of its parts: distances in units of `radius`, the points of all
+// surfaces together, which are then to be as dense on each. Without rays. O(texels + points).
+Measurement combine(std::span<const Measurement> measurements, std::span<const Part> parts, double radius);
 
 // As they are stored in a file.
 ErrorFigures error_figures(const Measurement& measurement);

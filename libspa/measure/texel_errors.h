@@ -22,6 +22,7 @@ enum class TexelState : std::uint8_t {
 
 // One entry a texel, row-major; NaN where there is nothing to measure.
 struct TexelErrors {
+    std::uint32_t part = 0; // of the map
     std::uint32_t layer = 0;
     Side side = Side::outer;
     Grid grid; // of depth and normals

@@ -114,7 +114,7 @@ TEST_F(InspectVerb, CoverageAndDepthAreThoseOfATorus) {
 TEST_F(InspectVerb, TextNamesEverySection) {
     const Outcome outcome = inspect({"torus.spa"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_EQ(outcome.out.rfind("torus.spa: spherical map, version 1.2, 1 part, ", 0), 0U) << outcome.out;
+    EXPECT_EQ(outcome.out.rfind("torus.spa: spherical map, version 1.3, 1 part, ", 0), 0U) << outcome.out;
     for (const char* text :
          {"PART", "META", "DPTH", "NRML", "COLR", "MIXD", "FOLD", "octahedral 64, 65x65 samples",
           "not measured", "source.name", "torus.glb", "coverage"})

@@ -38,6 +38,19 @@ FileBytes with_metadata(std::string_view text) {
     });
 }
 
+// Two parts of which the second follows a node; its BIND is the last section.
+FileBytes file_with_bind() { return write(make_map({TestPart{}, TestPart{}}).map); }
+
+FileBytes with_bind_entry(std::size_t field, std::uint32_t value) {
+    const FileBytes file = file_with_bind();
+    return with_value(file, entry_field(take_apart(file).sections.size() - 1, field), value);
+}
+
+FileBytes with_bind_value(std::size_t offset, double value) {
+    return edited(file_with_bind(),
+                  [&](FileParts& f) { store(f.sections.back().stored.data() + offset, value); });
+}
+
 TestPart f32_part() {
     TestPart part;
     part.depth = ElementFormat::f32;
@@ -359,6 +372,26 @@ Fixtures file_fixtures() {
                          store(section.stored.data() + 24, std::uint16_t(0));
                  FileBytes& bits = f.find(type_mixed).stored;
                  std::fill(bits.begin(), bits.end(), std::byte{});
+             });
+         }},
+
+        {Issue::wrong_required_flag, [] { return with_bind_entry(4, flag_required); }},
+        {Issue::duplicate_section,
+         [] {
+             return edited(file_with_bind(), [](FileParts& f) { f.sections.push_back(f.sections.back()); });
+         }},
+        {Issue::bind_fields_not_zero, [] { return with_bind_entry(12, 1); }},
+        {Issue::bind_fields_not_zero, [] { return with_bind_entry(20, 2); }},
+        {Issue::bind_fields_not_zero, [] { return with_bind_entry(24, 5); }},
+        {Issue::bind_part_not_valid, [] { return with_bind_entry(8, 0); }},
+        {Issue::bind_part_not_valid, [] { return with_bind_entry(8, 2); }},
+        {Issue::wrong_bind_length, [] { return with_bind_entry(48, 88); }},
+        {Issue::bind_not_valid, [] { return with_bind_value(0, std::numeric_limits<double>::quiet_NaN()); }},
+        {Issue::bind_not_valid, [] { return with_bind_value(88, 0x1p61); }},
+        {Issue::bind_not_valid,
+         [] {
+             return edited(file_with_bind(), [](FileParts& f) {
+                 std::fill_n(f.sections.back().stored.begin(), 72, std::byte{});
              });
          }},
 

@@ -244,5 +244,18 @@ TEST(Versions, AFileOfVersion11IsReadAsItWas) {
     EXPECT_EQ(check(with_section(0, 2)).issue, Issue::fold_fields_not_zero);
 }
 
+TEST(Versions, BindMeansNothingBeforeVersion13) {
+    const TestMap map = make_map({TestPart{}, TestPart{}});
+    const auto as_of = [&](std::uint16_t minor) {
+        return edited(write(map.map), [&](FileParts& f) { f.minor = minor; });
+    };
+    File opened;
+    const FileBytes now = as_of(3), before = as_of(2);
+    ASSERT_TRUE(open(std::span<const std::byte>(now), opened).ok());
+    EXPECT_TRUE(same(opened.map(), map.map));
+    ASSERT_TRUE(open(std::span<const std::byte>(before), opened).ok());
+    EXPECT_EQ(opened.map().parts[1].to_node, Affine{});
+}
+
 } // namespace
 } // namespace spa::test

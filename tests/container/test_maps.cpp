@@ -145,7 +145,8 @@ bool same(const Layer& a, const Layer& b) { return same(a.outer, b.outer) && sam
 bool same(const Part& a, const Part& b) {
     using Bits = std::array<std::uint32_t, 8>;
     return a.center == b.center && a.radius == b.radius && a.frame == b.frame && a.mapping == b.mapping &&
-           a.node == b.node && a.joint == b.joint && a.center_inside == b.center_inside &&
+           a.node == b.node && a.joint == b.joint && a.to_node == b.to_node &&
+           a.center_inside == b.center_inside &&
            std::equal(a.mixed.begin(), a.mixed.end(), b.mixed.begin(), b.mixed.end()) &&
            std::equal(a.folds.begin(), a.folds.end(), b.folds.begin(), b.folds.end()) &&
            std::bit_cast<Bits>(a.errors) == std::bit_cast<Bits>(b.errors) &&
@@ -167,6 +168,7 @@ TestMap make_map(const std::vector<TestPart>& parts, const std::string& metadata
         part.mapping = spec.mapping;
         part.node = std::int32_t(p) - 1;
         part.joint = p == 0 ? -1 : 7;
+        if (p > 0) part.to_node = {part.frame, {3, -0.5, double(p)}};
         part.center_inside = spec.center_inside;
         part.errors.texel_distance_max = 0.125F;
         part.errors.captured_area = 1;

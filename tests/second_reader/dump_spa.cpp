@@ -117,6 +117,12 @@ void print_map(const SphericalMap& map) {
                 print_image(part, "COLR", place, surface.color);
             }
         }
+        if (part.to_node != Affine{}) {
+            std::printf("bind %zu", i);
+            for (const Vec3d& row : part.to_node.linear.row) print(row);
+            print(part.to_node.translation);
+            std::printf("\n");
+        }
         if (!part.mixed.empty()) print_mixed(part, i);
         if (!part.folds.empty()) print_folds(part, i);
     }

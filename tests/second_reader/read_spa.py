@@ -15,7 +15,7 @@ import subprocess
 import sys
 
 IDENTIFIER = bytes.fromhex("AB535041204D61700D0A1A0A")
-MINOR = 2  # the version of the specification
+MINOR = 3  # the version of the specification
 MASK = (1 << 64) - 1
 
 
@@ -214,7 +214,7 @@ def decompress(data):
 # The file (sections 1 to 5), read as section 12 says.
 
 
-SINCE = {b"PART": 0, b"META": 0, b"DPTH": 0, b"NRML": 0, b"COLR": 0, b"MIXD": 1, b"FOLD": 2}  # minor versions
+SINCE = {b"PART": 0, b"META": 0, b"DPTH": 0, b"NRML": 0, b"COLR": 0, b"MIXD": 1, b"FOLD": 2, b"BIND": 3}  # minor versions
 
 
 class Entry:
@@ -277,9 +277,10 @@ def read(data):
             parts = [Part(raw[192 * i : 192 * (i + 1)], minor) for i in range(len(raw) // 192)]
         elif entry.type == b"META":
             metadata = raw
-        elif entry.type in (b"MIXD", b"FOLD"):
+        elif entry.type in (b"MIXD", b"FOLD", b"BIND"):
             fields = entry.layer or entry.side or entry.format or entry.width or entry.height
-            require(not fields, 222 if entry.type == b"MIXD" else 225)
+            require(not fields, {b"MIXD": 222, b"FOLD": 225, b"BIND": 228}[entry.type])
+            require(entry.type != b"BIND" or entry.raw == 96, 230)
             images[entry.part, 0, 0, entry.type] = (entry, raw)
         else:
             name, kind, components, size = FORMATS[entry.format]
@@ -292,6 +293,7 @@ def read(data):
     for part, _, _, kind in images:
         octahedral = part < len(parts) and parts[part].mapping == 2
         require(kind != b"MIXD" or octahedral, 223)
+        require(kind != b"BIND" or part < len(parts) and parts[part].node >= 0, 229)
         require(kind != b"FOLD" or octahedral and (part, 0, 0, b"MIXD") in images, 226)
     return parts, images, metadata
 
@@ -430,6 +432,10 @@ def lines(data):
                             q = tuple(values[0] * part.radius * c for c in u)
                             values = values + u + to_object_space(part, q)
                         yield " ".join(map(number, values))
+        if (index, 0, 0, b"BIND") in images:
+            bind = struct.unpack("<12d", images[index, 0, 0, b"BIND"][1])
+            require(all(abs(v) <= 2.0**60 for v in bind), 310)
+            yield f"bind {index} " + " ".join(map(number, bind))
         yield from mixed_triangles(part, images, index)
         yield from fold_records(part, images, index)
 
