@@ -55,6 +55,13 @@ std::string figure_text(const ImageFigure& figure, const measure::ImageErrors& e
     return value ? significant(*value, 4) : "none";
 }
 
+// JSON has no infinity: null stands for what equal pictures have, and for what cannot be formed.
+Json figure_json(const std::optional<double>& value) {
+    return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+} // namespace
+
 std::string figures_text(const measure::ImageErrors& errors) {
     std::string text;
     for (const ImageFigure& figure : image_figures())
@@ -62,12 +69,13 @@ std::string figures_text(const measure::ImageErrors& errors) {
     return text;
 }
 
-// JSON has no infinity: null stands for what equal pictures have, and for what cannot be formed.
-Json figure_json(const std::optional<double>& value) {
-    return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+Json figures_json(const ImageComparison& comparison) {
+    Json layers = Json::object();
+    for (const LayerComparison& layer : comparison.layers)
+        for (const ImageFigure& figure : image_figures())
+            layers[layer.name][figure.name] = figure_json(figure.value(layer.errors));
+    return layers;
 }
-
-} // namespace
 
 // clang-format takes a line that begins with `import::` for one of a module.
 spa::import::LinearPicture read_reference(const std::filesystem::path& path, const render::Settings& settings,
@@ -147,10 +155,6 @@ Picture comparison_sheet(const ImageComparison& comparison, const std::string& t
 }
 
 Json comparison_json(const ImageComparison& comparison, const std::string& reference) {
-    Json layers = Json::object();
-    for (const LayerComparison& layer : comparison.layers)
-        for (const ImageFigure& figure : image_figures())
-            layers[layer.name][figure.name] = figure_json(figure.value(layer.errors));
     Json limits = Json::array();
     for (const ImageLimit& limit : comparison.limits) {
         const measure::ImageErrors& errors = comparison.layer(limit.layer).errors;
@@ -159,7 +163,7 @@ Json comparison_json(const ImageComparison& comparison, const std::string& refer
                           {"value", figure_json(limit.figure->value(errors))},
                           {"met", met(limit, errors)}});
     }
-    return {{"reference", reference}, {"figures", layers}, {"fail", limits}};
+    return {{"reference", reference}, {"figures", figures_json(comparison)}, {"fail", limits}};
 }
 
 std::string comparison_text(const ImageComparison& comparison, const std::string& reference,

@@ -46,6 +46,11 @@ ImageComparison compare_with(const render::Frame& frame, const import::LinearPic
 // One row a layer: the picture, the reference, and where they differ.
 Picture comparison_sheet(const ImageComparison& comparison, const std::string& title);
 
+// Of each layer, by name.
+nlohmann::ordered_json figures_json(const ImageComparison& comparison);
+// One line, without the layer.
+std::string figures_text(const measure::ImageErrors& errors);
+
 nlohmann::ordered_json comparison_json(const ImageComparison& comparison, const std::string& reference);
 // Lines for people; label_width: of the report's first column.
 std::string comparison_text(const ImageComparison& comparison, const std::string& reference,

@@ -2,9 +2,9 @@
 #include "render_input.h"
 
 #include "near_names.h"
+#include "text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,28 +15,6 @@ namespace spa::tools {
 
 namespace {
 
-constexpr std::size_t most_listed = 12;
-
-template <class Named>
-std::vector<std::string> names_of(const std::vector<Named>& all) {
-    std::vector<std::string> names;
-    for (const Named& one : all)
-        if (!one.name.empty() && std::find(names.begin(), names.end(), one.name) == names.end() &&
-            names.size() < 100000)
-            names.push_back(one.name);
-    return names;
-}
-
-// What may have been meant, or else what there is.
-std::string suggestion(const std::string& given, const std::vector<std::string>& names) {
-    std::string near = did_you_mean(given, names);
-    if (!near.empty()) return near;
-    if (names.empty()) return "; none has a name";
-    std::string text = "; there are ";
-    for (std::size_t i = 0; i < names.size() && i < most_listed; ++i) text += (i == 0 ? "" : ", ") + names[i];
-    return names.size() > most_listed ? text + ", ..." : text;
-}
-
 bool is_below(const Scene& scene, std::uint32_t node, std::uint32_t above) {
     for (node = scene.nodes[node].parent; node != no_index; node = scene.nodes[node].parent)
         if (node == above) return true;
@@ -45,6 +23,10 @@ bool is_below(const Scene& scene, std::uint32_t node, std::uint32_t above) {
 
 void check_apart(const Scene& scene, const std::vector<PlacedMap>& maps) {
     for (const PlacedMap& map : maps)
+        if (map.node.empty() && maps.size() > 1)
+            throw Error(ExitCode::usage, "--map: a map without NODE takes the place of the whole scene; give "
+                                         "it alone, or a NODE to each");
+    for (const PlacedMap& map : maps)
         for (const PlacedMap& other : maps)
             for (const std::uint32_t node : map.nodes)
                 for (const std::uint32_t above : other.nodes)
@@ -52,13 +34,6 @@ void check_apart(const Scene& scene, const std::vector<PlacedMap>& maps) {
                         throw Error(ExitCode::usage, "--map: the node '" + map.node + "' lies below '" +
                                                          other.node +
                                                          "', which has a map too; leave one of them out");
-}
-
-std::optional<std::size_t> number(const std::string& text) {
-    std::size_t value = 0;
-    const char* end = text.data() + text.size();
-    const auto [stopped, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc{} && stopped == end ? std::optional(value) : std::nullopt;
 }
 
 struct Box {
@@ -125,11 +100,15 @@ std::vector<std::uint32_t> find_nodes(const Scene& scene, const std::string& sce
     return outermost;
 }
 
-std::vector<std::string> misfits(const Scene& scene, const std::vector<PlacedMap>& maps) {
+std::vector<std::string> misfits(const Scene& scene, const std::vector<PlacedMap>& maps, bool is_posed) {
     std::vector<std::string> sentences;
     for (const PlacedMap& map : maps) {
+        const std::vector<Part>& parts = map.file.map().parts;
+        if (is_posed && std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.node >= 0; }))
+            continue; // they stand where their nodes do
         const Box of_map = sphere_bounds(map.file.map());
         for (const std::uint32_t node : map.nodes) {
+            if (node == no_index) continue; // it lies in the world, as the scene does
             const Box box = bounds_of(scene, node, inverse(scene.nodes[node].to_world));
             const Vec3d center = middle(of_map);
             const double size = half_diagonal(box);
@@ -153,27 +132,14 @@ std::vector<std::string> misfits(const Scene& scene, const std::vector<PlacedMap
 std::vector<PlacedMap> place_maps(const Scene& scene, const RenderArguments& arguments) {
     std::vector<PlacedMap> maps;
     for (const MapArgument& map : arguments.maps)
-        maps.push_back({map.node, {}, find_nodes(scene, arguments.scene.string(), map.node)});
+        maps.push_back({map.node,
+                        {},
+                        map.node.empty() ? std::vector{no_index}
+                                         : find_nodes(scene, arguments.scene.string(), map.node)});
     check_apart(scene, maps);
     if (!arguments.uses_maps()) return {};
     for (std::size_t i = 0; i < maps.size(); ++i) maps[i].file = open_map(arguments.maps[i].file);
     return maps;
-}
-
-std::vector<render::MapPlacement> placements(const std::vector<PlacedMap>& maps,
-                                             const RenderArguments& arguments) {
-    std::vector<render::MapPlacement> all;
-    for (const PlacedMap& map : maps) {
-        for (const std::uint32_t node : map.nodes) {
-            render::MapPlacement placement;
-            placement.node = node;
-            placement.map = &map.file.map();
-            placement.layers = arguments.layers;
-            placement.test_points = arguments.method != MapMethod::projective;
-            all.push_back(placement);
-        }
-    }
-    return all;
 }
 
 Camera choose_camera(const Scene& scene, const RenderArguments& arguments) {
@@ -186,7 +152,7 @@ Camera choose_camera(const Scene& scene, const RenderArguments& arguments) {
     const auto named = std::find_if(cameras.begin(), cameras.end(),
                                     [&](const Camera& camera) { return camera.name == *arguments.camera; });
     if (named != cameras.end()) return *named;
-    const std::optional<std::size_t> index = number(*arguments.camera);
+    const std::optional<std::size_t> index = whole_number(*arguments.camera);
     if (index && *index < cameras.size()) return cameras[*index];
     throw Error(ExitCode::usage,
                 "--camera: there is no camera '" + *arguments.camera + "' in " + arguments.scene.string() +

@@ -12,9 +12,9 @@
 
 namespace spa::tools {
 
-// One --map: its file and the nodes that it takes the place of, indices into Scene::nodes.
+// One --map: its file and the nodes that it takes the place of, indices into Scene::nodes; no_index: all.
 struct PlacedMap {
-    std::string node;
+    std::string node; // empty: the whole scene
     MapFile file;
     std::vector<std::uint32_t> nodes;
 };
@@ -29,12 +29,9 @@ std::vector<std::uint32_t> find_nodes(const Scene& scene, const std::string& sce
 std::vector<PlacedMap> place_maps(const Scene& scene, const RenderArguments& arguments);
 
 // A sentence for each map that can hardly be one of the node it takes the place of: its spheres lie
-// elsewhere, or are of another size, than the node's triangles in the node's own space. O(triangles * maps).
-std::vector<std::string> misfits(const Scene& scene, const std::vector<PlacedMap>& maps);
-
-// For the renderer; refers to `maps`.
-std::vector<render::MapPlacement> placements(const std::vector<PlacedMap>& maps,
-                                             const RenderArguments& arguments);
+// elsewhere, or are of another size, than the node's triangles in the node's own space. Not of maps without
+// NODE and, if the scene is going to be posed, with parts that follow nodes. O(triangles * maps).
+std::vector<std::string> misfits(const Scene& scene, const std::vector<PlacedMap>& maps, bool is_posed);
 
 // The scene's camera of that name, or of that number; the first without an argument, and where there is none
 // one that shows the whole scene. Throws Error{usage} if there is none such.
