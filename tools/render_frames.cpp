@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_frames.h"
 
+#include "render_pictures.h"
 #include "sheet_layout.h"
 #include "text.h"
 
@@ -39,7 +40,7 @@ void add(render::FrameTimes& sum, const render::FrameTimes& times) {
 // The two figures of a label under a picture.
 std::string figures_label(const AnimationFrame& frame) {
     const measure::ImageErrors& errors = frame.comparison.layers.front().errors;
-    return "relMSE " + significant(errors.relmse, 2) + "  " + fixed(errors.psnr, 1) + " dB";
+    return "relMSE " + significant(errors.rel_mse, 2) + "  " + fixed(errors.psnr, 1) + " dB";
 }
 
 } // namespace spa::tools
