@@ -91,7 +91,9 @@ render::Settings complete_scene(Scene& scene, const RenderArguments& arguments,
         note(arguments.scene.string() + ": has no camera; it is shown as a whole, from the front");
     if (scene.lights.empty()) {
         scene.lights.push_back(default_sun(settings.camera));
-        note(arguments.scene.string() + ": has no light; a sun shines from above the camera's left shoulder");
+        if (arguments.frames != 0) scene.lights.push_back(default_fill(settings.camera));
+        note(arguments.scene.string() + ": has no light; a sun shines from above the camera's left shoulder" +
+             (arguments.frames != 0 ? ", and a weaker one from its right" : ""));
     }
     return settings;
 }

@@ -17,6 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t frames_a_row = 8;
+constexpr Rgb nothing_color{70, 74, 82};
 constexpr std::uint32_t narrowest_cell = 96, widest_cell = 376;
 
 import::LinearPicture picture_of(const render::Frame& frame){return {
@@ -35,6 +36,17 @@ void add(render::FrameTimes& sum, const render::FrameTimes& times) {
     sum.primary_rays += times.primary_rays;
     sum.secondary_rays += times.secondary_rays;
     sum.shadow_rays += times.shadow_rays;
+}
+
+std::vector<bool> seen(const render::Frame& frame) { return {frame.kind.begin(), frame.kind.end()}; }
+
+// What nothing is seen at is grey, so that a dark side has an outline.
+Picture shown(const ImageComparison& comparison, const std::vector<Vec3f>& pixels,
+              const std::vector<bool>& is_seen) {
+    Picture picture = tone_map(comparison.width, comparison.height, pixels, comparison.exposure);
+    for (std::size_t i = 0; i < is_seen.size(); ++i)
+        if (!is_seen[i] && picture.pixels[i] == Rgb{}) picture.pixels[i] = nothing_color;
+    return picture;
 }
 
 // The two figures of a label under a picture.
@@ -71,9 +83,9 @@ std::vector<AnimationFrame> render_frames(const RenderArguments& arguments, cons
         const render::Frame frame = render::render(gpu, device_scene, settings, &own, part_of_all(2 * i + 1));
         if (!goes_on) return frames;
         add(frame_times, own);
-        frames.push_back(
-            {times[i], device_scene.times().top_level,
-             compare_with(frame, picture_of(reference), "the triangles", arguments.exposure, {})});
+        frames.push_back({times[i], device_scene.times().top_level,
+                          compare_with(frame, picture_of(reference), "the triangles", arguments.exposure, {}),
+                          seen(reference), seen(frame)});
     }
     return frames;
 }
@@ -82,19 +94,17 @@ Picture frames_sheet(const std::vector<AnimationFrame>& frames, const std::strin
     SheetScale scale(2);
     scale.text = 1;
     scale.cell_width = std::clamp(frames.front().comparison.width, narrowest_cell, widest_cell);
-    const auto shown = [](const ImageComparison& comparison, const std::vector<Vec3f>& pixels) {
-        return tone_map(comparison.width, comparison.height, pixels, comparison.exposure);
-    };
     std::vector<SheetRow> rows;
     for (std::size_t first = 0; first < frames.size(); first += frames_a_row) {
         SheetRow top{"triangles, skinned", {}}, below{"maps", {}};
         for (std::size_t i = first; i < std::min(first + frames_a_row, frames.size()); ++i) {
             const ImageComparison& comparison = frames[i].comparison;
             const LayerComparison& picture = comparison.layers.front();
-            top.cells.push_back(
-                make_cell(fixed(frames[i].time, 3) + " s", shown(comparison, picture.reference), scale));
-            below.cells.push_back(
-                make_cell(figures_label(frames[i]), shown(comparison, picture.picture), scale));
+            top.cells.push_back(make_cell(fixed(frames[i].time, 3) + " s",
+                                          shown(comparison, picture.reference, frames[i].triangles_seen),
+                                          scale));
+            below.cells.push_back(make_cell(figures_label(frames[i]),
+                                            shown(comparison, picture.picture, frames[i].maps_seen), scale));
         }
         rows.push_back(std::move(top));
         rows.push_back(std::move(below));

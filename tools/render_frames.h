@@ -18,6 +18,8 @@ struct AnimationFrame {
     double time = 0;            // seconds
     double pose_seconds = 0;    // to move the maps on the device: instances and top level
     ImageComparison comparison; // of the picture with maps with that of triangles alone
+    // Whether a ray of the camera meets something, a pixel: with triangles, with maps.
+    std::vector<bool> triangles_seen, maps_seen;
 };
 
 // Renders the scene `times.size()` times. `scene` is posed and left at the last time. frame_times: their sum,

@@ -26,6 +26,7 @@ void check_apart(const Scene& scene, const std::vector<PlacedMap>& maps) {
         if (map.node.empty() && maps.size() > 1)
             throw Error(ExitCode::usage, "--map: a map without NODE takes the place of the whole scene; give "
                                          "it alone, or a NODE to each");
+    if (maps.size() < 2) return;
     for (const PlacedMap& map : maps)
         for (const PlacedMap& other : maps)
             for (const std::uint32_t node : map.nodes)
@@ -69,6 +70,16 @@ Box bounds_of(const Scene& scene, std::uint32_t node, const Affine& from_world) 
             grow(box, transform_point(from_world, to_double(scene.model.positions[vertex])));
     }
     return box;
+}
+
+// direction: in the camera's space; irradiance: of what faces it.
+Light sun_along(const Camera& camera, Vec3d direction, double irradiance) {
+    Light sun;
+    sun.name = "sun";
+    sun.kind = LightKind::directional;
+    sun.direction = normalize(transform_vector(camera.to_world, direction));
+    sun.intensity = to_float(Vec3d{irradiance, irradiance, irradiance});
+    return sun;
 }
 
 // The box of the cubes whose corners lie on the parts' spheres: as large as an object that fills them.
@@ -185,14 +196,8 @@ Camera framing_camera(const Model& model, double aspect) {
     return camera;
 }
 
-Light default_sun(const Camera& camera) {
-    Light sun;
-    sun.name = "sun";
-    sun.kind = LightKind::directional;
-    sun.direction = normalize(transform_vector(camera.to_world, Vec3d{1, -1.5, -1}));
-    const auto irradiance = float(std::numbers::pi);
-    sun.intensity = {irradiance, irradiance, irradiance};
-    return sun;
-}
+Light default_sun(const Camera& camera) { return sun_along(camera, {1, -1.5, -1}, std::numbers::pi); }
+
+Light default_fill(const Camera& camera) { return sun_along(camera, {-1, -0.4, -1}, std::numbers::pi / 3); }
 
 } // namespace spa::tools

@@ -43,4 +43,7 @@ Camera framing_camera(const Model& model, double aspect);
 // A sun behind the camera, above its left shoulder, under which a white surface that faces it has radiance 1.
 Light default_sun(const Camera& camera);
 
+// A third as strong, from the other side, so that nothing that moves goes dark.
+Light default_fill(const Camera& camera);
+
 } // namespace spa::tools

@@ -45,7 +45,8 @@ SourceAsset read_source_asset(const std::filesystem::path& path, const Division&
     SourceAsset source;
     Scene scene;
     if (division.kind == PartsKind::nodes || division.kind == PartsKind::bones) {
-        spa::import::SceneResult read = spa::import::read_scene(path, limits, {.rig = division.kind == PartsKind::bones});
+        spa::import::SceneResult read =
+            spa::import::read_scene(path, limits, {.rig = division.kind == PartsKind::bones});
         scene = std::move(read.scene);
         source.asset.report = std::move(read.report);
     } else {
