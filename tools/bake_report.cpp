@@ -47,6 +47,21 @@ Json folds_json(const bake::FoldStatistics& folds) {
     };
 }
 
+Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json center_json(const bake::Placement& placement) {
+    return {
+        {"chosen", name(placement.center_chosen)},
+        {"kernel", placement.kernel},
+        {"captured_bounds", optional_json(placement.captured_bounds)},
+        {"captured", optional_json(placement.captured)},
+    };
+}
+
+Json frame_json(const bake::Placement& placement) {
+    return {{"chosen", name(placement.frame_chosen)}, {"elongation", optional_json(placement.elongation)}};
+}
+
 // The counts; without what depends on the machine.
 Json counts_json(const BakeFacts& facts) {
     const import::Report& source = facts.source.report;
@@ -63,6 +78,8 @@ Json counts_json(const BakeFacts& facts) {
         {"back_facing_samples", bake.back_facing_samples},
         {"thin_samples", bake.thin_samples},
         {"truncated_samples", bake.truncated_samples},
+        {"center", facts.parts.size() == 1 ? center_json(bake.placement) : Json(nullptr)},
+        {"frame", facts.parts.size() == 1 ? frame_json(bake.placement) : Json(nullptr)},
         {"center_on_surface", bake.center_on_surface},
         {"center_inside", bake.center_inside},
         {"center_moved", bake.center_moved},
@@ -91,6 +108,8 @@ Json parts_json(const BakeFacts& facts) {
             {"components", bake.components},
             {"center", vector_json(part.center)},
             {"radius", part.radius},
+            {"center_choice", center_json(bake.placement)},
+            {"frame_choice", frame_json(bake.placement)},
             {"center_inside", bake.center_inside},
             {"layers", layers_json(bake)},
             {"mixed_triangles", bake.mixed_triangles ? Json(*bake.mixed_triangles) : Json(nullptr)},
@@ -136,6 +155,21 @@ std::string parts_text(const BakeFacts& facts) {
     }
     return std::to_string(facts.parts.size()) + ", by " + name(facts.arguments.settings.parts) + ", of " +
            std::to_string(least) + " to " + std::to_string(most) + " triangles";
+}
+
+std::string placement_text(const bake::Placement& placement) {
+    std::string text = placement.center_chosen == bake::Center::captured
+                           ? (placement.kernel ? "a point that sees all of the surface"
+                                               : "the point that holds the surface best")
+                           : "that of the bounding box";
+    if (placement.captured && placement.center_chosen == bake::Center::captured)
+        text += ", " + percent(*placement.captured) + " captured, from that of the bounding box " +
+                percent(*placement.captured_bounds);
+    else if (placement.captured)
+        text += ", " + percent(*placement.captured) + " captured";
+    text += std::string("; frame ") + name(placement.frame_chosen);
+    if (placement.elongation) text += ", elongation " + significant(*placement.elongation, 2);
+    return text;
 }
 
 std::string measured_text(const measure::Measurement& m) {
@@ -205,6 +239,7 @@ std::string report_text(const BakeFacts& facts, std::uint64_t output_bytes, doub
     text += line("mesh", mesh_text(bake));
     if (facts.parts.size() > 1) text += line("parts", parts_text(facts));
     text += line("map", options_text(facts.arguments.settings.options));
+    if (facts.parts.size() == 1) text += line("centre", placement_text(bake.placement));
     if (!bake.gl.empty()) text += line("gl", bake.gl);
     for (std::size_t i = 0; i < bake.layers.size(); ++i)
         text += line(i == 0 ? "layers" : "",

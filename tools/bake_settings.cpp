@@ -9,8 +9,22 @@
 
 namespace spa::bake {
 
-const char* name(Frame frame) { return frame == Frame::affine ? "affine" : "sphere"; }
-const char* name(Center center) { return center == Center::captured ? "captured" : "bounds"; }
+const char* name(Frame frame) {
+    switch (frame) {
+    case Frame::sphere: return "sphere";
+    case Frame::affine: return "affine";
+    case Frame::automatic: break;
+    }
+    return "auto";
+}
+const char* name(Center center) {
+    switch (center) {
+    case Center::bounds: return "bounds";
+    case Center::captured: return "captured";
+    case Center::automatic: break;
+    }
+    return "auto";
+}
 const char* name(Baker baker) { return baker == Baker::orbit ? "orbit" : "radial"; }
 const char* name(GlApi gl) {
     switch (gl) {
@@ -34,6 +48,9 @@ constexpr std::uint32_t max_height = 8192;
 constexpr std::uint32_t max_layers = 64;
 constexpr std::uint32_t max_samples = 8;
 
+constexpr bake::Frame default_frame = bake::Frame::automatic;
+constexpr bake::Center default_center = bake::Center::automatic;
+
 constexpr std::uint32_t paper_width = 640, paper_height = 480;
 
 // As given; what is absent is decided when all of them are known.
@@ -44,6 +61,8 @@ struct Given {
     std::optional<std::string> size, color_size;
     std::optional<ElementFormat> depth, normals;
     std::optional<std::uint32_t> layers;
+    std::optional<bake::Frame> frame;
+    std::optional<bake::Center> center;
 };
 
 enum class Folds : std::uint8_t { off, on };
@@ -92,6 +111,8 @@ BakeSettings complete(const Given& given) {
     options.depth = given.depth.value_or(given.paper ? ElementFormat::u8 : options.depth);
     options.normals = given.normals.value_or(given.paper ? ElementFormat::rgb8 : options.normals);
     options.layers = given.layers.value_or(given.paper ? 1 : options.layers);
+    options.frame = given.frame.value_or(given.paper ? bake::Frame::sphere : default_frame);
+    options.center = given.center.value_or(given.paper ? bake::Center::bounds : default_center);
     return settings;
 }
 
@@ -146,21 +167,24 @@ void define_map_options(CLI::App& app, Given& given) {
                  given.settings.max_parts = parse_number("--max-parts", text, 1, most_parts);
              })
         ->default_str(std::to_string(default_max_parts));
-    add_choice<bake::Frame>(app, "--frame", {bake::Frame::sphere, bake::Frame::affine},
+    add_choice<bake::Frame>(app, "--frame",
+                            {bake::Frame::automatic, bake::Frame::sphere, bake::Frame::affine},
                             "The space that is baked: object space, or one stretched so that the oriented "
-                            "bounding box is a cube, which suits long and flat objects",
-                            [&given](bake::Frame frame) { given.settings.options.frame = frame; })
-        ->default_str(name(defaults.frame));
+                            "bounding box is a cube, which suits long and flat objects, or which of the two "
+                            "samples the surface more finely",
+                            [&given](bake::Frame frame) { given.frame = frame; })
+        ->default_str(name(default_frame));
     add_choice<bake::Center>(
-        app, "--center", {bake::Center::bounds, bake::Center::captured},
-        "The point that directions start from: the centre of the bounding box, or the point "
-        "from which the most surface area is outermost",
-        [&given](bake::Center center) { given.settings.options.center = center; })
-        ->default_str(name(defaults.center));
-    app.add_flag(
-        "--paper", given.paper,
-        "The layout of the paper: --mapping latlong --size 640x480 --depth u8 --normals rgb8 --layers 1. "
-        "Of these, options that are given themselves have the last word");
+        app, "--center", {bake::Center::automatic, bake::Center::bounds, bake::Center::captured},
+        "The point that directions start from: the centre of the bounding box, or the point from which the "
+        "layers hold the surface best, or this one only where it is clearly better",
+        [&given](bake::Center center) { given.center = center; })
+        ->default_str(name(default_center));
+    app.add_flag("--paper", given.paper,
+                 "The layout of the paper: --mapping latlong --size 640x480 --depth u8 --normals rgb8 "
+                 "--layers 1 --frame "
+                 "sphere --center bounds. "
+                 "Of these, options that are given themselves have the last word");
 }
 
 void define_baker_options(CLI::App& app, Given& given) {

@@ -184,24 +184,22 @@ Result bake_with(const Caster& cast, const Model& model, const Options& options,
     Report& report = result.report;
     tbb::task_arena arena(arena_concurrency(options.threads));
     arena.execute([&] {
-        bool moved = false;
-        Vec3d center = bounds_center(model, moved);
-        if (options.center == Center::captured)
-            center = captured_center(model, center);
-        else if (moved) {
+        const Components components = find_components(model);
+        report.placement = place_part(model, options, components.turned);
+        const Vec3d center = report.placement.center;
+        if (report.placement.moved_behind) {
             report.warnings.emplace_back(
                 "the object is flat, so the centre of its bounding box would see it edge-on: the "
                 "centre was moved behind it");
         }
         const auto place = [&](Vec3d at) {
-            return make_part_frame(model, at, options.frame == Frame::affine);
+            return make_part_frame(model, at, report.placement.frame_chosen == Frame::affine);
         };
         PartFrame frame = place(center);
         CenteredModel centered = center_model(model, frame);
-        const Components components = find_components(model);
         const bool ask_inside = options.one_depth();
         inspect_triangles(centered, components, ask_inside, report);
-        if (report.center_on_surface && options.center == Center::bounds) {
+        if (report.center_on_surface) {
             const double radius = frame.radius;
             frame = place(center_off_surface(model, center));
             centered = center_model(model, frame);

@@ -4,6 +4,7 @@
 
 #include "bake_options.h"
 #include "crossings.h"
+#include "placement.h"
 
 #include "../core/spherical_map.h"
 #include "../mesh/model.h"
@@ -55,6 +56,7 @@ struct Report {
     std::uint64_t truncated_samples = 0;   // with more intervals than layers
     bool center_on_surface = false;        // the centre is closer to the surface than 1e-4 R
     bool center_inside = false;            // the centre is in the solid (intervals.h; one layer: winding.h)
+    Placement placement;                   // what was chosen, before the centre was moved off the surface
     double center_moved = 0;               // how far it was moved off the surface, in units of R
     std::vector<LayerReport> layers;       // as written
     std::optional<double> mixed_triangles; // share of the map's triangles (mixed.h); none for latlong

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a bake can be asked for. The defaults are those of the `spa bake` command.
+// What a bake can be asked for. The defaults are those of the `spa bake` command but for frame and centre,
+// which that chooses (automatic): here they are where a caller would expect them without looking.
 #pragma once
 
 #include "../core/direction_map.h"
@@ -10,12 +11,14 @@
 namespace spa::bake {
 
 enum class Frame : std::uint8_t {
-    sphere, // the identity: the map lives in a sphere in object space
-    affine, // the frame in which the oriented bounding box is a cube
+    sphere,    // the identity: the map lives in a sphere in object space
+    affine,    // the frame in which the oriented bounding box is a cube
+    automatic, // affine where that helps: placement.h
 };
 enum class Center : std::uint8_t {
-    bounds,   // the centre of the axis-aligned bounding box
-    captured, // the point from which most surface area is outermost
+    bounds,    // the centre of the axis-aligned bounding box
+    captured,  // the point from which the surface is held best: placement.h
+    automatic, // captured where that helps
 };
 enum class Baker : std::uint8_t { radial, orbit };
 enum class GlApi : std::uint8_t { automatic, egl, osmesa };

@@ -1,45 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "center.h"
 
-#include "radial.h"
-
 #include "../mesh/closest_point.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 namespace spa::bake {
 namespace {
 
-constexpr Grid search_grid{Mapping::octahedral, 65, 65};
-
 Vec3d plane_normal(const Model& model, const Triangle& triangle) {
     const Vec3d a = to_double(model.positions[triangle.vertex[0]]);
     return cross(to_double(model.positions[triangle.vertex[1]]) - a,
                  to_double(model.positions[triangle.vertex[2]]) - a);
-}
-
-struct Surface {
-    double area = 0;
-    Vec3d centroid;
-};
-
-Surface measure_surface(const Model& model) {
-    Surface surface;
-    for (const Triangle& triangle : model.triangles) {
-        const double area = length(plane_normal(model, triangle)) / 2;
-        for (const std::uint32_t v : triangle.vertex) {
-            surface.centroid = surface.centroid + to_double(model.positions[v]) * (area / 3);
-        }
-        surface.area += area;
-    }
-    if (surface.area > 0) surface.centroid = surface.centroid * (1 / surface.area);
-    return surface;
 }
 
 template <class Visit>
@@ -119,52 +96,6 @@ Vec3d center_off_surface(const Model& model, Vec3d center) {
         }
     }
     return center;
-}
-
-double captured_area(const Model& model, Vec3d center) {
-    const PartFrame part = make_part_frame(model, center, false);
-    const CenteredModel centered = center_model(model, part);
-    const CrossingGrid grid = cast_radial(centered, search_grid, {});
-    double seen = 0;
-    for (std::size_t s = 0; s + 1 < grid.first.size(); ++s) {
-        if (grid.first[s] == grid.first[s + 1]) continue;
-        const Crossing& c = grid.crossings[grid.first[s]];
-        const TexelIndex texel{std::uint32_t(s % search_grid.width), std::uint32_t(s / search_grid.width)};
-        const Vec3d u = normalize(sample_direction(search_grid, texel));
-        const Vec3d n = normalize(plane_normal(model, model.triangles[c.triangle]));
-        const double r = double(c.radius) * part.radius;
-        // Grazing samples would count without bound for area that hardly any ray sees.
-        seen += solid_angle(search_grid, texel) * r * r / std::max(std::abs(dot(u, n)), 0.1);
-    }
-    return seen / measure_surface(model).area;
-}
-
-Vec3d captured_center(const Model& model, Vec3d start) {
-    Vec3d best = start;
-    double best_area = captured_area(model, best);
-    const auto consider = [&](Vec3d candidate) {
-        const double area = captured_area(model, candidate);
-        if (!(area > best_area)) return false;
-        best = candidate;
-        best_area = area;
-        return true;
-    };
-    consider(measure_surface(model).centroid);
-    double radius = 0;
-    for (const Vec3f& p : model.positions) radius = std::max(radius, length(to_double(p) - start));
-    int evaluations = 0;
-    for (double step = radius / 4; step >= radius / 64 && evaluations < 24 * 6;) {
-        constexpr std::array<Vec3d, 6> moves{
-            {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
-        bool moved = false;
-        const Vec3d from = best;
-        for (const Vec3d& move : moves) {
-            ++evaluations;
-            moved = consider(from + move * step) || moved;
-        }
-        if (!moved) step /= 2;
-    }
-    return best;
 }
 
 } // namespace spa::bake

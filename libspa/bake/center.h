@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Centering a model, and the search for the centre that sees most of it.
+// Centering a model.
 #pragma once
 
 #include "crossings.h"
@@ -17,14 +17,5 @@ CenteredModel center_model(const Model& model, const PartFrame& part);
 // 1/64 of the farthest vertex's distance: the first from which no triangle is nearer than a quarter of that.
 // Deterministic; `center` itself if there is none. O(triangles).
 Vec3d center_off_surface(const Model& model, Vec3d center);
-
-// Share of the model's surface area that is outermost seen from `center`, estimated from the outermost
-// crossings over a coarse octahedral map: each stands for solid angle * r^2 / cos of its triangle's plane.
-double captured_area(const Model& model, Vec3d center);
-
-// The centre with the largest captured area found by a pattern search (Hooke & Jeeves 1961) that starts at
-// `start` and at the area centroid, with steps from 1/4 to 1/64 of the bounding box's half diagonal.
-// Deterministic. At most 2 + 6 * 24 evaluations of captured_area.
-Vec3d captured_center(const Model& model, Vec3d start);
 
 } // namespace spa::bake

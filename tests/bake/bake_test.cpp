@@ -370,18 +370,6 @@ TEST(Bake, TheAffineFrameMakesABoxACube) {
     }
 }
 
-TEST(Bake, TheCapturedCentreSeesMore) {
-    // The box centre of half a ring lies outside the ring.
-    Model model = test::empty_model();
-    test::add_torus(model, 2, 0.4F, 48);
-    model.triangles.resize(model.triangles.size() / 2);
-    model.triangle_materials.resize(model.triangles.size());
-    bool moved = false;
-    const Vec3d bounds = bounds_center(model, moved);
-    const Vec3d captured = captured_center(model, bounds);
-    EXPECT_GT(captured_area(model, captured), captured_area(model, bounds) * 1.05);
-}
-
 TEST(Bake, NothingToBakeIsAnError) {
     Model none = test::empty_model();
     EXPECT_THROW(bake_model(none, small()), Error);

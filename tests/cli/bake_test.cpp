@@ -53,7 +53,7 @@ TEST_F(BakeVerb, ReportFollowsItsSchema) {
 TEST_F(BakeVerb, DefaultsAreTheDocumentedOnes) {
     const json expected = {{"mapping", "octahedral"}, {"size", "256"},      {"color_size", "256"},
                            {"depth", "u16"},          {"normals", "oct16"}, {"layers", 2},
-                           {"folds", "on"},           {"frame", "sphere"},  {"center", "bounds"},
+                           {"folds", "on"},           {"frame", "auto"},    {"center", "auto"},
                            {"baker", "radial"},       {"gl", "auto"},       {"samples", 1},
                            {"compress", "zstd"},      {"measure", false}};
     EXPECT_EQ(bake("boot.spa")["options"], expected);

@@ -45,9 +45,9 @@ TEST(Help, BakePageListsItsOptionsButNotTheHiddenOne) {
     const std::string page = run_spa({"help", "bake"}, folder.path()).out;
     for (const char* option :
          {"--mapping octahedral|latlong", "--size N|WxH", "--color-size", "--depth u8|u16|f32",
-          "--normals oct8|oct16|rgb8", "--layers", "--frame sphere|affine", "--center bounds|captured",
-          "--baker radial|orbit", "--gl auto|egl|osmesa", "--samples", "--paper", "--threads",
-          "--compress zstd|none", "--format text|json", "--quiet"})
+          "--normals oct8|oct16|rgb8", "--layers", "--frame auto|sphere|affine",
+          "--center auto|bounds|captured", "--baker radial|orbit", "--gl auto|egl|osmesa", "--samples",
+          "--paper", "--threads", "--compress zstd|none", "--format text|json", "--quiet"})
         EXPECT_NE(page.find(option), std::string::npos) << option;
     EXPECT_EQ(page.find("--gl-naive"), std::string::npos);
 }
