@@ -64,7 +64,7 @@ double parse_exposure(const std::string& text) {
 // The file is what follows the last '=': names of nodes are the asset's, names of files the user's.
 MapArgument parse_map(const std::string& text) {
     const std::size_t equals = text.rfind('=');
-    if (equals == std::string::npos && !text.empty()) return {"", text};
+    if (equals == std::string::npos && text.ends_with(".spa")) return {"", text};
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
         throw Error(ExitCode::usage, "--map: '" + text +
                                          "' is not [NODE=]FILE.spa: the name of a node of the scene and the "

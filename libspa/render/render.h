@@ -21,15 +21,15 @@ namespace spa::render {
 struct MapPlacement {
     std::uint32_t node = 0; // index into Scene::nodes; no_index: all of the scene
     const SphericalMap* map = nullptr;
-    // Where each part stands, from the map's object space to the world (pose_parts, ../mesh/pose.h); empty:
-    // all stand at the node's to_world, or in the world itself where the map takes the place of the scene.
-    std::vector<Affine> parts;
     std::uint32_t layers = 0; // as many at most; 0: all
     bool holes = false;       // rays pass where less than half of a texel is covered (SPA_RECORD_COVERAGE)
     // For tracing by fan or march: their box is that of the whole sphere (vulkan::LoadOptions), and rays
     // leave the solid that they begin in, because the points that hit lie in the solid and are to be lit all
     // the same.
     bool test_points = false;
+    // Where each part stands, from the map's object space to the world (pose_parts, ../mesh/pose.h); empty:
+    // all stand at the node's to_world, or in the world itself where the map takes the place of the scene.
+    std::vector<Affine> parts{};
 };
 
 struct SceneMemory {                       // bytes on the device

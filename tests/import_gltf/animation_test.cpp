@@ -136,6 +136,31 @@ TEST(Animation, MovesANodeWhereverItStands) {
     expect_near(to_world[3], {{}, {2, 1, 0}});
 }
 
+// Parts of a map follow nodes by their number in the file.
+TEST(Animation, PartsFollowNodes) {
+    GltfBuilder builder = moved("translation", {0}, {0, 1, 0});
+    builder.json["nodes"] = {{{"mesh", 0}},
+                             {{"children", {0}}, {"translation", {1, 0, 0}}},
+                             {{"children", {0}}, {"translation", {2, 0, 0}}}};
+    builder.json["scenes"][0]["nodes"] = {1, 2};
+    const Scene scene = read_rig(builder).scene;
+    const std::vector<Affine> to_world = pose_nodes(scene, scene.rig.animations[0], 0);
+    SphericalMap map;
+    map.parts.resize(2);
+    map.parts[1].node = 0;
+    map.parts[1].to_node = {{}, {0, 0, 5}};
+    const Affine otherwise{{}, {7, 7, 7}};
+    const auto parts_below = [&](std::uint32_t node) {
+        return pose_parts(scene, to_world, map, node, otherwise);
+    };
+    expect_near(parts_below(no_index).at(0), otherwise);
+    expect_near(parts_below(no_index).at(1), {{}, {1, 1, 5}}); // the first of those of number 0
+    expect_near(parts_below(2).at(1), {{}, {2, 1, 5}});        // the one below
+    expect_near(parts_below(0).at(1), {{}, {1, 1, 5}});
+    map.parts[1].node = 3;
+    EXPECT_THROW((void)parts_below(no_index), Error);
+}
+
 TEST(Animation, WhatIsLeftOut) {
     GltfBuilder builder = moved("weights", {0}, {1, 1, 1});
     SceneResult result = read_rig(builder);
