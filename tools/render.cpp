@@ -315,7 +315,7 @@ Verb render_verb() {
                     "      --fail indirect.relmse=0.01,ssim=0.98\n"
                     "$ spa render --plan room.plan.json -o room.png\n"
                     "$ spa render fox.glb --animation Run --time 0.4 -o run.png\n"
-                    "$ spa render fox.glb --map fox.spa --animation Run --frames 8 -o sheet.png\n"
+                    "$ spa render fox.glb --map fox.spa --frames 8 -o sheet.png\n"
                     "$ spa render --list-devices",
         .see_also = "spa sample, spa bake, spa plan, spa validate",
         .define = [](CLI::App& app) -> std::function<void()> {
