@@ -14,7 +14,7 @@ namespace spa::tools {
 
 // One --map: its file and the nodes that it takes the place of, indices into Scene::nodes; no_index: all.
 struct PlacedMap {
-    std::string node; // empty: the whole scene
+    std::string node; // its name
     MapFile file;
     std::vector<std::uint32_t> nodes;
 
