@@ -15,7 +15,7 @@
 namespace spa::tools {
 
 struct BakeSettings {
-    bake::Options options;
+    bake::Options options{.frame = bake::Frame::automatic, .center = bake::Center::automatic};
     bool compress = true; // zstd
     bool measure = false;
 };
