@@ -179,11 +179,11 @@ TEST(Search, ColorsTakeNoMoreThanHalfOfTheBytes) {
     const SearchResult free = search(model, request);
     ASSERT_TRUE(free.met);
     EXPECT_GE(free.chosen->color_cells, 64U);
-    request.max_bytes = 40'000;
+    request.max_bytes = 20'000;
     const SearchResult limited = search(model, request);
     ASSERT_TRUE(limited.met);
-    EXPECT_LE(limited.bytes, 40'000U);
-    EXPECT_GT(free.bytes, 40'000U);
+    EXPECT_LE(limited.bytes, 20'000U);
+    EXPECT_GT(free.bytes, 20'000U);
     EXPECT_LT(limited.chosen->color_cells, free.chosen->color_cells);
 }
 
