@@ -165,7 +165,7 @@ void judge(const std::optional<ImageComparison>& comparison, const RenderArgumen
 void compare_with_plan(RenderFacts& facts, const PlacedPlan& placed, const render::Gpu& gpu,
                        const Scene& scene, const render::Frame& frame,
                        const std::optional<import::LinearPicture>& reference) {
-    facts.plan.emplace(PlanFacts{placed, {}, {}, {}, {}, 0, 0});
+    facts.plan.emplace(PlanFacts{placed, {}, {}, {}, {}, 0});
     PlanVariant& plan = facts.plan->plan;
     plan.times = facts.frame_times;
     plan.memory = facts.memory;
