@@ -121,10 +121,10 @@ TEST_F(RenderPlan, InstancesShareOneMapOnTheDevice) {
 }
 
 std::size_t hits(const std::filesystem::path& picture) {
-    std::size_t count = 0;
-    for (const Vec3f pixel : import::read_picture(picture).layers[0].pixels)
-        if (pixel != Vec3f{}) ++count;
-    return count;
+    const import::LinearPicture read = import::read_picture(picture);
+    const std::vector<Vec3f>& pixels = read.layers[0].pixels;
+    return std::size_t(
+        std::count_if(pixels.begin(), pixels.end(), [](Vec3f pixel) { return pixel != Vec3f{}; }));
 }
 
 // All dropped: the camera sees it as long as its rays meet triangles.
