@@ -13,5 +13,6 @@ Scene make_corner_d(int level);
 Scene make_wall(int level);
 Scene make_colonnade(int level);
 Scene make_colonnade_b(int level);
+Scene make_room(int level);
 
 } // namespace spa::samples

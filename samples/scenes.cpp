@@ -26,6 +26,9 @@ constexpr std::array entries = {
     Entry{{"wall", "The boot before a white wall, on which it casts a shadow.", 3}, make_wall},
     Entry{{"colonnade", "The boot before columns with arches, lit from above.", 3}, make_colonnade},
     Entry{{"colonnade-b", "The same, tip tilted down by 20 degrees.", 3}, make_colonnade_b},
+    Entry{{"room", "A furnished room with a yard behind it: 48 objects of all kinds, seen from near and far.",
+           3},
+          make_room},
 };
 
 const Entry* find_entry(std::string_view name) {

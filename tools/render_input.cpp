@@ -182,28 +182,33 @@ std::vector<render::MapPlacement> placements(const std::vector<PlacedMap>& maps,
 }
 
 Camera choose_camera(const Scene& scene, const RenderArguments& arguments) {
-    const std::vector<Camera>& cameras = scene.cameras;
-    if (!arguments.camera) {
-        if (!cameras.empty()) return cameras.front();
-        const render::Settings& settings = arguments.settings;
-        return framing_camera(scene.model, double(settings.width) / settings.height);
-    }
-    const auto named = std::find_if(cameras.begin(), cameras.end(),
-                                    [&](const Camera& camera) { return camera.name == *arguments.camera; });
-    if (named != cameras.end()) return *named;
-    const std::optional<std::size_t> index = number(*arguments.camera);
-    if (index && *index < cameras.size()) return cameras[*index];
-    throw Error(ExitCode::usage,
-                "--camera: there is no camera '" + *arguments.camera + "' in " + arguments.scene.string() +
-                    (cameras.empty() ? ", and no other" : suggestion(*arguments.camera, names_of(cameras))));
+    if (arguments.camera) return find_camera(scene, arguments.scene, *arguments.camera);
+    if (!scene.cameras.empty()) return scene.cameras.front();
+    const render::Settings& settings = arguments.settings;
+    return framing_camera(scene.model, double(settings.width) / settings.height);
 }
 
-Camera framing_camera(const Model& model, double aspect) {
+const Camera& find_camera(const Scene& scene, const std::filesystem::path& scene_path,
+                          const std::string& camera) {
+    const std::vector<Camera>& cameras = scene.cameras;
+    const auto named = std::find_if(cameras.begin(), cameras.end(),
+                                    [&](const Camera& other) { return other.name == camera; });
+    if (named != cameras.end()) return *named;
+    const std::optional<std::size_t> index = number(camera);
+    if (index && *index < cameras.size()) return cameras[*index];
+    throw Error(ExitCode::usage,
+                "--camera: there is no camera '" + camera + "' in " + scene_path.string() +
+                    (cameras.empty() ? ", and no other" : suggestion(camera, names_of(cameras))));
+}
+
+namespace {
+
+// backward: unit, from the scene to the camera; not straight up or down.
+Camera camera_from(Vec3d backward, const Model& model, double aspect) {
     constexpr double margin = 1.08; // a little more than what has to be seen
     Camera camera;
     camera.name = "framing";
     camera.vertical_fov = 35 * std::numbers::pi / 180;
-    const Vec3d backward = normalize(Vec3d{0.55, 0.45, 1});
     const Vec3d right = normalize(cross(Vec3d{0, 1, 0}, backward));
     const Vec3d up = cross(backward, right);
     const double tan_y = std::tan(camera.vertical_fov / 2) / margin, tan_x = tan_y * aspect;
@@ -222,6 +227,27 @@ Camera framing_camera(const Model& model, double aspect) {
     camera.to_world.linear = transpose({{right, up, backward}});
     camera.to_world.translation = center + backward * distance;
     return camera;
+}
+
+Vec3d from_the_front() { return normalize(Vec3d{0.55, 0.45, 1}); }
+
+} // namespace
+
+Camera framing_camera(const Model& model, double aspect) {
+    return camera_from(from_the_front(), model, aspect);
+}
+
+std::vector<Camera> surrounding_cameras(const Model& model, double aspect, std::uint32_t count) {
+    std::vector<Camera> cameras;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double angle = 2 * std::numbers::pi * i / count;
+        const double c = std::cos(angle), s = std::sin(angle);
+        const Vec3d f = from_the_front();
+        cameras.push_back(camera_from({f.x * c + f.z * s, f.y, f.z * c - f.x * s}, model, aspect));
+        cameras.back().name = "view " + std::to_string(i + 1);
+    }
+    cameras.front().name = "framing";
+    return cameras;
 }
 
 Light default_sun(const Camera& camera) {

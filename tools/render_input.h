@@ -46,9 +46,14 @@ std::vector<render::MapPlacement> placements(const std::vector<PlacedMap>& maps,
 // The scene's camera of that name, or of that number; the first without an argument, and where there is none
 // one that shows the whole scene. Throws Error{usage} if there is none such.
 Camera choose_camera(const Scene& scene, const RenderArguments& arguments);
+// The scene's camera of that name, or of that number. Throws as choose_camera.
+const Camera& find_camera(const Scene& scene, const std::filesystem::path& scene_path,
+                          const std::string& camera);
 
 // A camera that sees all of the model, from the front, the right and above. aspect: width / height.
 Camera framing_camera(const Model& model, double aspect);
+// `count` like it, evenly around the scene, that one first.
+std::vector<Camera> surrounding_cameras(const Model& model, double aspect, std::uint32_t count);
 
 // A sun behind the camera, above its left shoulder, under which a white surface that faces it has radiance 1.
 Light default_sun(const Camera& camera);

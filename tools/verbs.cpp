@@ -13,6 +13,7 @@ Verb extract_verb();
 Verb validate_verb();
 Verb compare_verb();
 #ifdef SPA_HAS_RENDER // the build has Vulkan
+Verb plan_verb();
 Verb render_verb();
 #endif
 Verb sample_verb();
@@ -23,7 +24,7 @@ std::span<const Verb> verbs() {
     static const std::vector<Verb> table{bake_verb(),    batch_verb(),    inspect_verb(),
                                          extract_verb(), validate_verb(), compare_verb(),
 #ifdef SPA_HAS_RENDER
-                                         render_verb(),
+                                         plan_verb(),    render_verb(),
 #endif
                                          sample_verb(),  bench_verb(),    help_verb()};
     return table;

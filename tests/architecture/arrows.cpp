@@ -150,6 +150,12 @@ const std::vector<Module>& modules() {
          .uses = {"libspa/core/", "libspa/mesh/", "libspa/bake/", "libspa/trace/", "libspa/render/"},
          .includes = {"malloc.h", "meshoptimizer.h", "sched.h", "tbb/"}, // all but the last for benchmarks
          .links = {"TBB::", "meshoptimizer"}},
+        {.folder = "libspa/plan/",
+         .targets = {"plan"},
+         .uses = {"libspa/core/", "libspa/mesh/", "libspa/bake/", "libspa/trace/", "libspa/measure/",
+                  "formats/container/"},
+         .includes = {"tbb/"},
+         .links = {"TBB::"}},
         {.folder = "formats/container/",
          .targets = {"container"},
          .uses = {"libspa/core/"},
