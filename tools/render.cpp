@@ -187,6 +187,7 @@ void render_scene(const RenderArguments& given) {
     if (!arguments.plan.empty()) plan = read_plan(arguments.plan);
     if (plan && arguments.scene.empty()) arguments.scene = plan->scene;
     if (plan && !arguments.camera) arguments.camera = plan->camera;
+    if (plan && plan->samples && !arguments.has_samples) arguments.settings.samples = *plan->samples;
     const Stopwatch all;
     check_outputs(arguments, {});
     std::optional<InterruptGuard> guard(std::in_place);

@@ -133,6 +133,7 @@ TEST_F(RenderPlan, WhatIsDroppedIsThereForTrianglesOnly) {
     write_plan();
     const json report = this->report("seen.exr", {"--plan-only"});
     EXPECT_EQ(report["plan"]["dropped_triangles"], report["scene"]["triangles"]);
+    EXPECT_EQ(report["settings"]["samples"], 8) << "as given; else those of the plan";
     EXPECT_EQ(report["plan"]["variants"]["plan"]["memory"]["by_map_rays"], report["memory"]["top_level"]);
     EXPECT_GT(hits(path("seen.exr")), 200U);
     static_cast<void>(this->report("gone.exr", {"--plan-only", "--primary", "maps"}));
