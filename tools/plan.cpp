@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "interrupt.h"
 #include "output.h"
+#include "plan_page.h"
 #include "plan_report.h"
 #include "progress.h"
 #include "render_input.h"
@@ -83,7 +84,9 @@ void plan_file(const PlanArguments& arguments) {
         });
     }
     const ScenePlanFacts facts{arguments, source.report, source.scene.model.triangles.size(), plan};
-    write(arguments.output, json_text(scene_plan_json(facts)));
+    const nlohmann::ordered_json json = scene_plan_json(facts);
+    if (!arguments.html.empty()) write(arguments.html, plan_page(json));
+    write(arguments.output, json_text(json));
     guard.reset();
     for (const std::string& warning : source.report.warnings)
         std::cerr << "spa: warning: " << warning << '\n';

@@ -119,9 +119,13 @@ Json totals_json(const plan::ScenePlan& plan) {
     return {{"bytes", plan.bytes},
             {"bytes_triangles", plan.bytes_triangles},
             {"image_error", plan.image_error},
+            {"errors_together", plan.errors_together},
             {"image_error_deviation", plan.image_error_deviation},
             {"bytes_one_size", plan.bytes_one_size},
-            {"image_error_one_size", plan.image_error_one_size}};
+            {"image_error_one_size", plan.image_error_one_size},
+            {"one_size_of_maps", plan.one_size_of_maps},
+            {"bytes_one_size_of_maps", plan.bytes_one_size_of_maps},
+            {"image_error_one_size_of_maps", plan.image_error_one_size_of_maps}};
 }
 
 std::uint64_t count(const plan::ScenePlan& plan, plan::Decision decision) {
@@ -219,8 +223,14 @@ std::string plan_report_text(const ScenePlanFacts& facts) {
     line("the plan", byte_count(plan.bytes) + ", image error " + significant(plan.image_error, 2) + " +- " +
                          significant(plan.image_error_deviation, 1));
     line("all triangles", byte_count(plan.bytes_triangles));
-    line("maps of one size", std::to_string(plan.one_size) + " cells, " + byte_count(plan.bytes_one_size) +
-                                 ", image error " + significant(plan.image_error_one_size, 2));
+    const auto one_size = [](std::uint32_t size, std::uint64_t bytes, double error) {
+        return std::to_string(size) + " cells, " + byte_count(bytes) + ", image error " +
+               significant(error, 2);
+    };
+    line("one size",
+         one_size(plan.one_size_of_maps, plan.bytes_one_size_of_maps, plan.image_error_one_size_of_maps) +
+             ", for what is a map in the plan");
+    line("", one_size(plan.one_size, plan.bytes_one_size, plan.image_error_one_size) + ", for everything");
     line("looked at", std::to_string(plan.pixels) + " pixels, " + std::to_string(plan.secondary_rays) +
                           " secondary rays, " + std::to_string(plan.trial_maps) + " trial maps");
     line("time", fixed(plan.seconds, 1) + " s: rays " + fixed(plan.trace_seconds, 1) + " s, trials " +

@@ -50,6 +50,7 @@ PixelGrid pixel_grid(double count, std::uint32_t width, std::uint32_t height) {
 
 struct LightPaths::Traced {
     double error = 0;
+    Vec3f radiance; // changed minus true
     std::vector<double> distances;
     std::uint64_t rays = 0, missed = 0, extra = 0;
 };
@@ -164,6 +165,7 @@ public:
         }
         const Vec3f indirect = times(pixel.surface.albedo, sum) * (1 / float(paths_.options_.samples));
         traced.error = relative_square(indirect, pixel.indirect);
+        traced.radiance = indirect - pixel.indirect;
         return traced;
     }
 
@@ -226,7 +228,9 @@ Change LightPaths::change(std::uint32_t object, const StandIn* stand_in) const {
     Change change;
     double squares = 0;
     std::vector<double> distances;
-    for (const Traced& pixel : traced) {
+    for (std::uint32_t i = 0; i < traced.size(); ++i) {
+        const Traced& pixel = traced[i];
+        if (pixel.error > 0) change.pixels.push_back({i, pixel.radiance});
         change.image_error += pixel.error;
         squares += pixel.error * pixel.error;
         change.rays += pixel.rays;
@@ -240,6 +244,13 @@ Change LightPaths::change(std::uint32_t object, const StandIn* stand_in) const {
         std::sqrt(std::max(0.0, squares / count - change.image_error * change.image_error) / count);
     change.distance = measure::distribution(std::move(distances));
     return change;
+}
+
+double LightPaths::image_error(std::span<const Vec3f> radiance_changes) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        sum += relative_square(pixels_[i].indirect + radiance_changes[i], pixels_[i].indirect);
+    return sum / double(pixels_.size());
 }
 
 std::uint64_t LightPaths::secondary_rays() const {

@@ -36,8 +36,15 @@ struct ObjectViews {
     double distance_min = 0;     // the closest twentieth (5th percentile)
 };
 
+// A pixel whose light a change changes.
+struct PixelChange {
+    std::uint32_t pixel = 0;
+    Vec3f radiance; // changed minus true
+};
+
 // What a change does.
 struct Change {
+    std::vector<PixelChange> pixels; // ascending
     // relMSE of the indirect light (measure/image_errors.h) over all pixels, those without a surface
     // included.
     double image_error = 0;
@@ -56,6 +63,9 @@ public:
     [[nodiscard]] std::vector<ObjectViews> views() const;
     // stand_in: nullptr leaves the object out. Parallel in the caller's arena. O(rays).
     [[nodiscard]] Change change(std::uint32_t object, const StandIn* stand_in) const;
+
+    // relMSE of changes together; one entry a pixel.
+    [[nodiscard]] double image_error(std::span<const Vec3f> radiance_changes) const;
 
     [[nodiscard]] std::size_t pixels() const { return pixels_.size(); }
     [[nodiscard]] std::uint64_t secondary_rays() const;

@@ -72,7 +72,12 @@ struct ScenePlan {
     std::uint32_t one_size = 0; // at which all objects as maps are as exact, or the largest
     std::uint64_t bytes = 0, bytes_triangles = 0, bytes_one_size = 0;
     double image_error = 0, image_error_one_size = 0;
+    double errors_together = 1;       // image_error as a multiple of the sum of the objects' shares
     double image_error_deviation = 0; // standard deviation of image_error as an estimate
+    // The same if what stays triangles in the plan does so there too: what sizes of their own alone bring.
+    std::uint32_t one_size_of_maps = 0;
+    std::uint64_t bytes_one_size_of_maps = 0;
+    double image_error_one_size_of_maps = 0;
     bool meets_error = true, meets_budget = true;
     // How it came about; not for files.
     std::uint64_t pixels = 0, secondary_rays = 0, trial_maps = 0;

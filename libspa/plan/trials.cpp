@@ -61,6 +61,12 @@ double TrialSeries::deviation(std::uint32_t size) const {
     return trial->image_error > 0 ? trial->deviation / trial->image_error * image_error(size) : 0;
 }
 
+const Trial& TrialSeries::nearest(std::uint32_t size) const {
+    const auto found =
+        std::find_if(trials.begin(), trials.end(), [&](const Trial& trial) { return trial.size >= size; });
+    return found == trials.end() ? trials.back() : *found;
+}
+
 double TrialSeries::distance(std::uint32_t size) const {
     if (const Trial* trial = tried(trials, size)) return trial->distance;
     return ErrorLaw::fit(values_of(trials, [](const Trial& t) { return t.distance; })).at(size);
@@ -83,6 +89,7 @@ void Trials::add(const ObjectGroup& group, const Model& model, std::uint32_t siz
         const StandIn stand_in(unit_, map, scene_.nodes[objects_[object].node].to_world);
         const Change change = paths_.change(object, &stand_in);
         trial.of_object.push_back(change.image_error);
+        trial.pixels.insert(trial.pixels.end(), change.pixels.begin(), change.pixels.end());
         trial.image_error += change.image_error;
         variance += change.deviation * change.deviation;
         trial.distance = std::max(trial.distance, change.distance.p95);

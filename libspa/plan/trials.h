@@ -23,8 +23,9 @@ struct Trial {
     std::uint32_t size = 0;
     std::uint64_t bytes = 0;
     double image_error = 0, deviation = 0;
-    std::vector<double> of_object; // image_error of each
-    double distance = 0;           // 95th percentile of |dt|, in the object's radius
+    std::vector<double> of_object;   // image_error of each
+    std::vector<PixelChange> pixels; // of all objects, one after the other
+    double distance = 0;             // 95th percentile of |dt|, in the object's radius
 };
 
 // Of one group and one way to bake apart from the size.
@@ -37,6 +38,8 @@ struct TrialSeries {
     [[nodiscard]] double image_error(std::uint32_t size) const;
     [[nodiscard]] double deviation(std::uint32_t size) const;
     [[nodiscard]] double distance(std::uint32_t size) const;
+    // The trial of that size, or the one next to it.
+    [[nodiscard]] const Trial& nearest(std::uint32_t size) const;
     [[nodiscard]] std::uint32_t largest() const { return trials.empty() ? 0 : trials.back().size; }
 };
 

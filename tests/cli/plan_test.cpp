@@ -66,6 +66,21 @@ TEST(PlanVerb, TextNamesObjectsAndSums) {
     EXPECT_EQ(outcome.err, "");
 }
 
+TEST(PlanVerb, ThePageHoldsNamesAsText) {
+    const TemporaryFolder folder;
+    write_file(folder.path() / "scene.obj",
+               "o <script>alert(1)</script>\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+               "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    const Outcome outcome =
+        run_spa({"plan", "scene.obj", "-o", "plan.json", "--html", "plan.html", "--rays", "1024", "-q"},
+                folder.path());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string page = read_file(folder.path() / "plan.html");
+    EXPECT_EQ(page.find("<script"), std::string::npos);
+    EXPECT_NE(page.find("&lt;script&gt;"), std::string::npos);
+    EXPECT_NE(page.find("All triangles"), std::string::npos);
+}
+
 TEST(PlanVerb, ABudgetTooSmallIsALimitMissed) {
     const TemporaryFolder folder;
     make_scene(folder, "corner", "2");

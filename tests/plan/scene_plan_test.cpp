@@ -60,7 +60,8 @@ TEST(ScenePlan, MeetsATargetWithFewerBytesThanTriangles) {
         EXPECT_EQ(object.settings.has_value(), object.decision == Decision::map);
         if (object.expected) error += object.expected->image_error;
     }
-    EXPECT_NEAR(error, plan.image_error, 1e-9 + plan.image_error * 1e-6);
+    EXPECT_GE(plan.errors_together, 1);
+    EXPECT_NEAR(error * plan.errors_together, plan.image_error, 1e-9 + plan.image_error * 1e-6);
 }
 
 TEST(ScenePlan, SpendsMoreForASmallerError) {
