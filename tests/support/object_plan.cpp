@@ -57,7 +57,11 @@ nlohmann::ordered_json object_plan(const nlohmann::ordered_json& files) {
           {"image_error", 0.01},
           {"image_error_deviation", 0.001},
           {"bytes_one_size", 100000},
-          {"image_error_one_size", 0.01}}}};
+          {"image_error_one_size", 0.01},
+          {"one_size_of_maps", 64},
+          {"bytes_one_size_of_maps", 50000},
+          {"image_error_one_size_of_maps", 0.01},
+          {"errors_together", 1.0}}}};
 }
 
 } // namespace spa::test
