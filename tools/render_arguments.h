@@ -38,8 +38,9 @@ struct RenderArguments {
     std::filesystem::path scene, output;
     std::vector<MapArgument> maps;
     std::filesystem::path plan, plan_maps, plan_sheet; // empty: none, beside the plan, none
-    bool plan_only = false;                            // without what it is compared with
-    std::uint32_t layers = 0;                          // of the maps; 0: all
+    bool has_samples = false; // --samples or --reference was given: the plan's do not count
+    bool plan_only = false;   // without what it is compared with
+    std::uint32_t layers = 0; // of the maps; 0: all
     std::optional<std::string> camera;
     // Without the camera, which the scene decides.
     render::Settings settings;
