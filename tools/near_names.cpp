@@ -44,4 +44,14 @@ std::string did_you_mean(std::string_view given, std::span<const std::string> na
     return text.empty() ? text : text + "?";
 }
 
+std::string suggestion(const std::string& given, const std::vector<std::string>& names) {
+    constexpr std::size_t most_listed = 12;
+    std::string near = did_you_mean(given, names);
+    if (!near.empty()) return near;
+    if (names.empty()) return "; none has a name";
+    std::string text = "; there are ";
+    for (std::size_t i = 0; i < names.size() && i < most_listed; ++i) text += (i == 0 ? "" : ", ") + names[i];
+    return names.size() > most_listed ? text + ", ..." : text;
+}
+
 } // namespace spa::tools

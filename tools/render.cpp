@@ -5,6 +5,7 @@
 #include "render_pictures.h"
 #include "render_plan_report.h"
 #include "render_report.h"
+#include "text.h"
 #include "verb.h"
 
 #include <nlohmann/json.hpp>
@@ -75,29 +76,47 @@ render::GpuOptions gpu_options(const RenderArguments& arguments) {
 
 spa::import::SceneResult read_scene(const RenderArguments& arguments) {
     const SlowStep step("reading " + arguments.scene.filename().string(), arguments.quiet);
-    return spa::import::read_scene(arguments.scene, {.follow_links = arguments.follow_links});
+    return spa::import::read_scene(arguments.scene, {.follow_links = arguments.follow_links},
+                                   {.rig = arguments.is_posed()});
 }
 
 void note(const std::string& text) { std::cerr << "spa: note: " << text << '\n'; }
 
 // What the scene lacks to be seen.
-render::Settings complete_scene(Scene& scene, const RenderArguments& arguments) {
+render::Settings complete_scene(Scene& scene, const RenderArguments& arguments,
+                                const std::optional<std::size_t>& animation,
+                                const std::vector<double>& times) {
     render::Settings settings = arguments.settings;
-    settings.camera = choose_camera(scene, arguments);
+    settings.camera = scene.cameras.empty() && !arguments.camera && !times.empty()
+                          ? framing_camera(scene, *animation, times, double(settings.width) / settings.height)
+                          : choose_camera(scene, arguments);
     if (scene.cameras.empty())
         note(arguments.scene.string() + ": has no camera; it is shown as a whole, from the front");
     if (scene.lights.empty()) {
         scene.lights.push_back(default_sun(settings.camera));
-        note(arguments.scene.string() + ": has no light; a sun shines from above the camera's left shoulder");
+        if (arguments.frames != 0) scene.lights.push_back(default_fill(settings.camera));
+        note(arguments.scene.string() + ": has no light; a sun shines from above the camera's left shoulder" +
+             (arguments.frames != 0 ? ", and a weaker one from its right" : ""));
     }
     return settings;
+}
+
+// Poses the scene for one picture; a sheet poses it for each. Which animation it is.
+std::optional<std::size_t> choose_moment(Scene& scene, const RenderArguments& arguments) {
+    if (!arguments.is_posed()) return {};
+    const std::size_t animation = choose_animation(scene, arguments);
+    const Animation& chosen = scene.rig.animations[animation];
+    if (arguments.time && *arguments.time > chosen.seconds)
+        note("the animation ends after " + significant(chosen.seconds, 4) + " s: it is shown at its end");
+    if (arguments.frames == 0) pose_scene(scene, animation, arguments.time.value_or(0));
+    return animation;
 }
 
 std::unique_ptr<render::DeviceScene> upload(const RenderArguments& arguments, const render::Gpu& gpu,
                                             const Scene& scene, const std::vector<PlacedMap>& maps,
                                             const std::vector<std::uint32_t>& dropped) {
     const SlowStep step("building acceleration structures", arguments.quiet);
-    return std::make_unique<render::DeviceScene>(gpu, scene, placements(maps, dropped, arguments),
+    return std::make_unique<render::DeviceScene>(gpu, scene, placements(scene, maps, dropped, arguments),
                                                  arguments.uses_replaced_triangles());
 }
 
@@ -111,6 +130,20 @@ render::Frame render_with_progress(const RenderArguments& arguments, const std::
     });
     InterruptGuard::check();
     return frame;
+}
+
+std::vector<AnimationFrame> render_sheet(const RenderArguments& arguments, const render::Gpu& gpu,
+                                         render::DeviceScene& device_scene, Scene& scene, RenderFacts& facts,
+                                         const std::vector<double>& times) {
+    ProgressReport progress("rendering " + arguments.output.filename().string(), arguments.quiet);
+    std::vector<AnimationFrame> frames =
+        render_frames(arguments, gpu, scene, facts.maps, facts.settings, *facts.animation, times,
+                      device_scene, facts.frame_times, [&progress](double share) {
+                          progress.update(share);
+                          return interrupt_signal() == 0;
+                      });
+    InterruptGuard::check();
+    return frames;
 }
 
 std::vector<Output> encode(const RenderFacts& facts, const render::Frame& frame) {
@@ -205,26 +238,40 @@ void render_scene(const RenderArguments& given) {
         placed ? std::vector<PlacedMap>() : place_maps(source.scene, arguments);
     const std::vector<PlacedMap>& maps = placed ? placed->maps : own_maps;
     for (const std::string& sentence :
-         placed ? plan_warnings(*placed, arguments) : misfits(source.scene, maps))
+         placed ? plan_warnings(*placed, arguments) : misfits(source.scene, maps, arguments.is_posed()))
         std::cerr << "spa: warning: " << sentence << '\n';
     const double read_seconds = reading.seconds();
-    const render::Settings settings = complete_scene(source.scene, arguments);
+    const std::optional<std::size_t> animation = choose_moment(source.scene, arguments);
+    const std::vector<double> times =
+        animation ? frame_times(source.scene.rig.animations[*animation], arguments.frames)
+                  : std::vector<double>{};
+    const render::Settings settings = complete_scene(source.scene, arguments, animation, times);
     InterruptGuard::check();
 
     std::unique_ptr<render::DeviceScene> scene =
         upload(arguments, gpu, source.scene, maps, placed ? placed->dropped : std::vector<std::uint32_t>());
     InterruptGuard::check();
     RenderFacts facts{arguments, settings, source.scene, maps, gpu.entry()};
-    const render::Frame frame = render_with_progress(arguments, arguments.output.filename().string(), gpu,
-                                                     *scene, settings, facts.frame_times);
-    facts.memory = scene->memory();
-    facts.scene_times = scene->times();
-    scene.reset();
-    if (placed) compare_with_plan(facts, *placed, gpu, source.scene, frame, reference);
-    if (reference)
-        facts.comparison =
-            compare_with(frame, *reference, arguments.compare.string(), arguments.exposure, arguments.fail);
-    facts.files = write(encode(facts, frame));
+    facts.animation = animation;
+    if (arguments.frames != 0) {
+        facts.frames = render_sheet(arguments, gpu, *scene, source.scene, facts, times);
+        facts.memory = scene->memory();
+        facts.scene_times = scene->times();
+        const std::string title =
+            arguments.scene.filename().string() + "  " + source.scene.rig.animations[*animation].name;
+        facts.files = write({{arguments.output, encode_png(frames_sheet(facts.frames, title))}});
+    } else {
+        const render::Frame frame = render_with_progress(arguments, arguments.output.filename().string(), gpu,
+                                                         *scene, settings, facts.frame_times);
+        facts.memory = scene->memory();
+        facts.scene_times = scene->times();
+        scene.reset(); // those that a plan is compared with take its memory
+        if (placed) compare_with_plan(facts, *placed, gpu, source.scene, frame, reference);
+        if (reference)
+            facts.comparison = compare_with(frame, *reference, arguments.compare.string(), arguments.exposure,
+                                            arguments.fail);
+        facts.files = write(encode(facts, frame));
+    }
     facts.read_seconds = read_seconds;
     facts.seconds = all.seconds();
     guard.reset();
@@ -252,6 +299,7 @@ Verb render_verb() {
             "light, albedo, normal (in the world), depth (distance from the camera) and kind of hit (0 "
             "nothing, 1 triangle, 2 outer end of a map's interval, 3 inner end, 4 wall). A PNG holds the "
             "picture as a display shows it. The same scene, options and device give the same bytes.\n\n"
+            "--time draws a moment of an animation and --frames a sheet of several: docs/animation.md.\n\n"
             "--compare sets the picture beside a reference and prints relMSE, RMSE, PSNR and SSIM, of direct "
             "and indirect light too if the reference has these layers. What the figures mean is in "
             "docs/measures.md.\n\n"
@@ -267,6 +315,8 @@ Verb render_verb() {
                     "      --test-rays 10 --compare ref.exr --difference fan.png \\\n"
                     "      --fail indirect.relmse=0.01,ssim=0.98\n"
                     "$ spa render --plan room.plan.json -o room.png\n"
+                    "$ spa render fox.glb --animation Run --time 0.4 -o run.png\n"
+                    "$ spa render fox.glb --map fox.spa --frames 8 -o sheet.png\n"
                     "$ spa render --list-devices",
         .see_also = "spa sample, spa bake, spa plan, spa validate",
         .define = [](CLI::App& app) -> std::function<void()> {

@@ -64,10 +64,11 @@ double parse_exposure(const std::string& text) {
 // The file is what follows the last '=': names of nodes are the asset's, names of files the user's.
 MapArgument parse_map(const std::string& text) {
     const std::size_t equals = text.rfind('=');
+    if (equals == std::string::npos && text.ends_with(".spa")) return {"", text};
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
         throw Error(ExitCode::usage, "--map: '" + text +
-                                         "' is not NODE=FILE.spa: the name of a node of the scene and the "
-                                         "map that takes its place");
+                                         "' is not [NODE=]FILE.spa: the name of a node of the scene and the "
+                                         "map that takes its place, or a map that takes that of all");
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
@@ -107,6 +108,7 @@ void complete_geometry(Given& given) {
                             std::string(option) + " maps contradicts --reference, which traces triangles");
         settings.primary = settings.shadow = settings.secondary = Geometry::triangles;
     } else {
+        if (arguments.frames != 0) settings.primary = Geometry::maps;
         settings.primary = given.primary.value_or(settings.primary);
         settings.shadow = given.shadow.value_or(settings.shadow);
         settings.secondary = given.secondary.value_or(settings.secondary);
@@ -129,6 +131,25 @@ void check_plan(const RenderArguments& arguments) {
     if (!arguments.uses_maps())
         throw Error(ExitCode::usage, "--plan: no ray would meet maps; leave out --reference, or let shadow, "
                                      "secondary or primary rays meet maps");
+    if (arguments.is_posed())
+        throw Error(ExitCode::usage,
+                    "--plan: the plan is for the scene at rest; leave --animation, --time and "
+                    "--frames out");
+}
+
+void check_frames(const RenderArguments& arguments) {
+    if (arguments.frames == 0) return;
+    const auto refuse = [](const char* option, const char* why) {
+        throw Error(ExitCode::usage, std::string("--frames and ") + option + " exclude each other: " + why);
+    };
+    if (arguments.time) refuse("--time", "the frames' times are spread over the animation");
+    if (arguments.reference) refuse("--reference", "each frame has one of its own");
+    if (!arguments.compare.empty()) refuse("--compare", "each frame has a reference of its own");
+    if (arguments.aovs) refuse("--aovs", "the sheet holds the pictures alone");
+    if (arguments.writes_exr()) refuse("OUT.exr", "the sheet is for people; write a PNG");
+    if (!arguments.uses_maps())
+        throw Error(ExitCode::usage,
+                    "--frames sets maps beside triangles, and no ray meets a map; give --map");
 }
 
 void check_files(const RenderArguments& arguments) {
@@ -147,7 +168,10 @@ void check_files(const RenderArguments& arguments) {
     for (std::size_t i = 0; i < arguments.maps.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (arguments.maps[i].node == arguments.maps[j].node)
-                throw Error(ExitCode::usage, "--map: '" + arguments.maps[i].node + "' is given twice");
+                throw Error(ExitCode::usage,
+                            arguments.maps[i].node.empty()
+                                ? "--map: two maps without NODE would take the place of the whole scene"
+                                : "--map: '" + arguments.maps[i].node + "' is given twice");
 }
 
 void define_scene_options(CLI::App& app, Given& given) {
@@ -159,8 +183,9 @@ void define_scene_options(CLI::App& app, Given& given) {
                std::transform(texts.begin(), texts.end(), std::back_inserter(arguments.maps), parse_map);
            },
            "Replace a node of the scene, and all below it, by a map baked from it; may be given several "
-           "times. Of several nodes of one name all are replaced. The map's object space is the node's")
-        ->type_name("NODE=FILE.spa")
+           "times. Of several nodes of one name all are replaced. The map's object space is the node's. "
+           "Without NODE the map takes the place of the whole scene")
+        ->type_name("[NODE=]FILE.spa")
         ->allow_extra_args(false);
     add_path(app, "--plan-maps", "DIR", "The folder that 'spa batch --from-plan' wrote the maps into",
              arguments.plan_maps)
@@ -195,6 +220,24 @@ void define_scene_options(CLI::App& app, Given& given) {
     add_text(app, "--seed", "N", "Seed of all random numbers", [&settings](const std::string& text) {
         settings.seed = parse_number("--seed", text, 0, 0xFFFFFFFFU);
     })->default_str(std::to_string(settings.seed));
+}
+
+void define_animation_options(CLI::App& app, RenderArguments& arguments) {
+    add_text(app, "--animation", "NAME|N",
+             "The animation of a glTF scene: its name, or its number from 0. Skinned triangles and nodes are "
+             "posed, and parts of maps that follow nodes or joints move with these",
+             [&arguments](const std::string& text) { arguments.animation = text; })
+        ->default_str("the first with --time or --frames, else none");
+    add_text(app, "--time", "T", "The moment of the animation, in seconds from its start",
+             [&arguments](const std::string& text) { arguments.time = parse_measure("--time", text); })
+        ->default_str("0 with --animation");
+    add_text(
+        app, "--frames", "N",
+        "A sheet of 1 to 64 pictures evenly over the animation: above with skinned triangles, below with "
+        "maps, for all rays unless --primary, --shadow or --secondary say otherwise, and the errors",
+        [&arguments](const std::string& text) {
+            arguments.frames = parse_number("--frames", text, 1, max_frames);
+        });
 }
 
 void define_tracing_options(CLI::App& app, Given& given) {
@@ -298,6 +341,7 @@ std::function<RenderArguments()> define_render_arguments(CLI::App& app) {
             scene->required(false);
         });
     define_scene_options(app, *given);
+    define_animation_options(app, arguments);
     define_tracing_options(app, *given);
     define_picture_options(app, arguments);
     // Nothing is rendered then. The parser asks for what is required after it has run this.
@@ -317,6 +361,7 @@ std::function<RenderArguments()> define_render_arguments(CLI::App& app) {
         complete_tracing(*given);
         complete_geometry(*given);
         check_files(given->arguments);
+        check_frames(given->arguments);
         return given->arguments;
     };
 }

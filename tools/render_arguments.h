@@ -28,9 +28,12 @@ constexpr std::uint32_t max_picture_pixels = 1U << 26U;
 enum class MapMethod : std::uint8_t { projective, fan, march, sphere };
 const char* name(MapMethod method);
 
-// NODE=FILE.spa
+// The most that --frames may ask for.
+constexpr std::uint32_t max_frames = 64;
+
+// [NODE=]FILE.spa
 struct MapArgument {
-    std::string node;
+    std::string node; // empty: the whole scene
     std::string file;
 };
 
@@ -41,7 +44,9 @@ struct RenderArguments {
     bool has_samples = false; // --samples or --reference was given: the plan's do not count
     bool plan_only = false;   // without what it is compared with
     std::uint32_t layers = 0; // of the maps; 0: all
-    std::optional<std::string> camera;
+    std::optional<std::string> camera, animation;
+    std::optional<double> time; // seconds
+    std::uint32_t frames = 0;   // pictures of a sheet; 0: one picture, not a sheet
     // Without the camera, which the scene decides.
     render::Settings settings;
     MapMethod method = MapMethod::projective;
@@ -58,6 +63,8 @@ struct RenderArguments {
     bool quiet = false;
 
     [[nodiscard]] bool writes_exr() const;
+    // Whether the scene is drawn at a moment of an animation.
+    [[nodiscard]] bool is_posed() const { return animation || time || frames != 0; }
     // Whether some kind of ray meets maps, and some meets the triangles that they replace.
     [[nodiscard]] bool uses_maps() const;
     [[nodiscard]] bool uses_replaced_triangles() const;

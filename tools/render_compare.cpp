@@ -64,6 +64,13 @@ Json image_figures_json(const measure::ImageErrors& errors) {
     return json;
 }
 
+Json image_figures_json(const ImageComparison& comparison) {
+    Json layers = Json::object();
+    for (const LayerComparison& layer : comparison.layers)
+        layers[layer.name] = image_figures_json(layer.errors);
+    return layers;
+}
+
 // clang-format takes a line that begins with `import::` for one of a module.
 spa::import::LinearPicture read_reference(const std::filesystem::path& path, const render::Settings& settings,
                                           const std::vector<ImageLimit>& limits) {
@@ -160,9 +167,6 @@ Picture comparison_sheet(const ImageComparison& comparison, const std::string& t
 }
 
 Json comparison_json(const ImageComparison& comparison, const std::string& reference) {
-    Json layers = Json::object();
-    for (const LayerComparison& layer : comparison.layers)
-        layers[layer.name] = image_figures_json(layer.errors);
     Json limits = Json::array();
     for (const ImageLimit& limit : comparison.limits) {
         const measure::ImageErrors& errors = comparison.layer(limit.layer).errors;
@@ -171,7 +175,7 @@ Json comparison_json(const ImageComparison& comparison, const std::string& refer
                           {"value", figure_json(limit.figure->value(errors))},
                           {"met", met(limit, errors)}});
     }
-    return {{"reference", reference}, {"figures", layers}, {"fail", limits}};
+    return {{"reference", reference}, {"figures", image_figures_json(comparison)}, {"fail", limits}};
 }
 
 std::string comparison_text(const ImageComparison& comparison, const std::string& reference,

@@ -60,6 +60,8 @@ std::string comparison_text(const ImageComparison& comparison, const std::string
 // The figures of one layer: image_figures() by name, and as a line for people.
 nlohmann::ordered_json image_figures_json(const measure::ImageErrors& errors);
 std::string image_figures_text(const measure::ImageErrors& errors);
+// The figures of each layer, by its name.
+nlohmann::ordered_json image_figures_json(const ImageComparison& comparison);
 // The frame's layer of a name of compared_layers; the reference's, null if it has none.
 std::vector<Vec3f> layer_of(const render::Frame& frame, std::string_view name);
 const std::vector<Vec3f>* layer_of(const import::LinearPicture& reference, std::string_view name);

@@ -2,9 +2,9 @@
 #include "render_input.h"
 
 #include "near_names.h"
+#include "text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,31 +13,14 @@
 
 namespace spa::tools {
 
-namespace {
-
-constexpr std::size_t most_listed = 12;
-
-template <class Named>
-std::vector<std::string> names_of(const std::vector<Named>& all) {
-    std::vector<std::string> names;
-    for (const Named& one : all)
-        if (!one.name.empty() && std::find(names.begin(), names.end(), one.name) == names.end() &&
-            names.size() < 100000)
-            names.push_back(one.name);
-    return names;
-}
-
-// What may have been meant, or else what there is.
-std::string suggestion(const std::string& given, const std::vector<std::string>& names) {
-    std::string near = did_you_mean(given, names);
-    if (!near.empty()) return near;
-    if (names.empty()) return "; none has a name";
-    std::string text = "; there are ";
-    for (std::size_t i = 0; i < names.size() && i < most_listed; ++i) text += (i == 0 ? "" : ", ") + names[i];
-    return names.size() > most_listed ? text + ", ..." : text;
-}
+namespace {}
 
 void check_apart(const Scene& scene, const std::vector<PlacedMap>& maps) {
+    for (const PlacedMap& map : maps)
+        if (map.replaces_scene() && maps.size() > 1)
+            throw Error(ExitCode::usage, "--map: a map without NODE takes the place of the whole scene; give "
+                                         "it alone, or a NODE to each");
+    if (maps.size() < 2) return;
     for (const PlacedMap& map : maps)
         for (const PlacedMap& other : maps)
             for (const std::uint32_t node : map.nodes)
@@ -46,13 +29,6 @@ void check_apart(const Scene& scene, const std::vector<PlacedMap>& maps) {
                         throw Error(ExitCode::usage, "--map: the node '" + map.node + "' lies below '" +
                                                          other.node +
                                                          "', which has a map too; leave one of them out");
-}
-
-std::optional<std::size_t> number(const std::string& text) {
-    std::size_t value = 0;
-    const char* end = text.data() + text.size();
-    const auto [stopped, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc{} && stopped == end ? std::optional(value) : std::nullopt;
 }
 
 struct Box {
@@ -90,6 +66,16 @@ Box bounds_of(const Scene& scene, std::uint32_t node, const Affine& from_world) 
     return box;
 }
 
+// direction: in the camera's space; irradiance: of what faces it.
+Light sun_along(const Camera& camera, Vec3d direction, double irradiance) {
+    Light sun;
+    sun.name = "sun";
+    sun.kind = LightKind::directional;
+    sun.direction = normalize(transform_vector(camera.to_world, direction));
+    sun.intensity = to_float(Vec3d{irradiance, irradiance, irradiance});
+    return sun;
+}
+
 // The box of the cubes whose corners lie on the parts' spheres: as large as an object that fills them.
 Box sphere_bounds(const SphericalMap& map) {
     Box box = no_box;
@@ -119,11 +105,15 @@ std::vector<std::uint32_t> find_nodes(const Scene& scene, const std::string& sce
     return outermost;
 }
 
-std::vector<std::string> misfits(const Scene& scene, const std::vector<PlacedMap>& maps) {
+std::vector<std::string> misfits(const Scene& scene, const std::vector<PlacedMap>& maps, bool is_posed) {
     std::vector<std::string> sentences;
     for (const PlacedMap& map : maps) {
+        const std::vector<Part>& parts = map.file.map().parts;
+        if (is_posed && std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.node >= 0; }))
+            continue; // they stand where their nodes do
         const Box of_map = sphere_bounds(map.file.map());
         for (const std::uint32_t node : map.nodes) {
+            if (node == no_index) continue; // it lies in the world, as the scene does
             const Box box = bounds_of(scene, node, inverse(scene.nodes[node].to_world));
             const Vec3d center = middle(of_map);
             const double size = half_diagonal(box);
@@ -147,7 +137,10 @@ std::vector<std::string> misfits(const Scene& scene, const std::vector<PlacedMap
 std::vector<PlacedMap> place_maps(const Scene& scene, const RenderArguments& arguments) {
     std::vector<PlacedMap> maps;
     for (const MapArgument& map : arguments.maps)
-        maps.push_back({map.node, {}, find_nodes(scene, arguments.scene.string(), map.node)});
+        maps.push_back({map.node,
+                        {},
+                        map.node.empty() ? std::vector{no_index}
+                                         : find_nodes(scene, arguments.scene.string(), map.node)});
     check_apart(scene, maps);
     if (!arguments.uses_maps()) return {};
     for (std::size_t i = 0; i < maps.size(); ++i) maps[i].file = open_map(arguments.maps[i].file);
@@ -171,14 +164,175 @@ render::MapPlacement placement(std::uint32_t node, const SphericalMap* map,
     return result;
 }
 
-std::vector<render::MapPlacement> placements(const std::vector<PlacedMap>& maps,
-                                             const std::vector<std::uint32_t>& dropped,
-                                             const RenderArguments& arguments) {
-    std::vector<render::MapPlacement> all;
+Camera choose_camera(const Scene& scene, const RenderArguments& arguments) {
+    if (arguments.camera) return find_camera(scene, arguments.scene, *arguments.camera);
+    if (!scene.cameras.empty()) return scene.cameras.front();
+    const render::Settings& settings = arguments.settings;
+    return framing_camera(scene.model, double(settings.width) / settings.height);
+}
+
+const Camera& find_camera(const Scene& scene, const std::filesystem::path& scene_path,
+                          const std::string& camera) {
+    const std::vector<Camera>& cameras = scene.cameras;
+    const auto named = std::find_if(cameras.begin(), cameras.end(),
+                                    [&](const Camera& other) { return other.name == camera; });
+    if (named != cameras.end()) return *named;
+    const std::optional<std::size_t> index = whole_number(camera);
+    if (index && *index < cameras.size()) return cameras[*index];
+    throw Error(ExitCode::usage,
+                "--camera: there is no camera '" + camera + "' in " + scene_path.string() +
+                    (cameras.empty() ? ", and no other" : suggestion(camera, names_of(cameras))));
+}
+
+namespace {
+
+void check_apart(const Scene& scene, const std::vector<PlacedMap>& maps) {
     for (const PlacedMap& map : maps)
-        for (const std::uint32_t node : map.nodes) all.push_back(placement(node, &map.file.map(), arguments));
-    for (const std::uint32_t node : dropped) all.push_back(placement(node, nullptr, arguments));
-    return all;
+        if (map.replaces_scene() && maps.size() > 1)
+            throw Error(ExitCode::usage, "--map: a map without NODE takes the place of the whole scene; give "
+                                         "it alone, or a NODE to each");
+    if (maps.size() < 2) return;
+    for (const PlacedMap& map : maps)
+        for (const PlacedMap& other : maps)
+            for (const std::uint32_t node : map.nodes)
+                for (const std::uint32_t above : other.nodes)
+                    if (is_below(scene, node, above))
+                        throw Error(ExitCode::usage, "--map: the node '" + map.node + "' lies below '" +
+                                                         other.node +
+                                                         "', which has a map too; leave one of them out");
+}
+
+struct Box {
+    Vec3d low, high;
+};
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Box no_box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+
+void grow(Box& box, Vec3d p) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+}
+
+Vec3d middle(const Box& box) { return (box.low + box.high) * 0.5; }
+double half_diagonal(const Box& box) { return length(box.high - box.low) / 2; }
+
+Box bounds(const Model& model) {
+    Box box = no_box;
+    for (const Vec3f position : model.positions) grow(box, to_double(position));
+    return box;
+}
+
+// Of what the node and those below it draw, in the space that `from_world` leads to.
+Box bounds_of(const Scene& scene, std::uint32_t node, const Affine& from_world) {
+    std::vector<bool> of_node(scene.nodes.size()); // a node comes behind its parent
+    for (std::uint32_t i = node; i < scene.nodes.size(); ++i)
+        of_node[i] = i == node || (scene.nodes[i].parent != no_index && of_node[scene.nodes[i].parent]);
+    Box box = no_box;
+    for (std::size_t i = 0; i < scene.model.triangles.size(); ++i) {
+        if (!of_node[scene.triangle_nodes[i]]) continue;
+        for (const std::uint32_t vertex : scene.model.triangles[i].vertex)
+            grow(box, transform_point(from_world, to_double(scene.model.positions[vertex])));
+    }
+    return box;
+}
+
+// direction: in the camera's space; irradiance: of what faces it.
+Light sun_along(const Camera& camera, Vec3d direction, double irradiance) {
+    Light sun;
+    sun.name = "sun";
+    sun.kind = LightKind::directional;
+    sun.direction = normalize(transform_vector(camera.to_world, direction));
+    sun.intensity = to_float(Vec3d{irradiance, irradiance, irradiance});
+    return sun;
+}
+
+// The box of the cubes whose corners lie on the parts' spheres: as large as an object that fills them.
+Box sphere_bounds(const SphericalMap& map) {
+    Box box = no_box;
+    for (const Part& part : map.parts) {
+        const double half = part.radius * std::cbrt(std::abs(determinant(part.frame))) / std::sqrt(3.0);
+        grow(box, part.center - Vec3d{half, half, half});
+        grow(box, part.center + Vec3d{half, half, half});
+    }
+    return box;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> find_nodes(const Scene& scene, const std::string& scene_name,
+                                      const std::string& node) {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].name == node) found.push_back(i);
+    if (found.empty())
+        throw Error(ExitCode::usage, "--map: there is no node '" + node + "' in " + scene_name +
+                                         suggestion(node, names_of(scene.nodes)));
+    std::vector<std::uint32_t> outermost;
+    std::copy_if(found.begin(), found.end(), std::back_inserter(outermost), [&](std::uint32_t i) {
+        return std::none_of(found.begin(), found.end(),
+                            [&](std::uint32_t above) { return is_below(scene, i, above); });
+    });
+    return outermost;
+}
+
+std::vector<std::string> misfits(const Scene& scene, const std::vector<PlacedMap>& maps, bool is_posed) {
+    std::vector<std::string> sentences;
+    for (const PlacedMap& map : maps) {
+        const std::vector<Part>& parts = map.file.map().parts;
+        if (is_posed && std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.node >= 0; }))
+            continue; // they stand where their nodes do
+        const Box of_map = sphere_bounds(map.file.map());
+        for (const std::uint32_t node : map.nodes) {
+            if (node == no_index) continue; // it lies in the world, as the scene does
+            const Box box = bounds_of(scene, node, inverse(scene.nodes[node].to_world));
+            const Vec3d center = middle(of_map);
+            const double size = half_diagonal(box);
+            if (!(size > 0)) continue; // it draws nothing
+            // A centre that was moved to see more lies off the middle, and its sphere is larger.
+            const double ratio = half_diagonal(of_map) / size;
+            const double away = length(center - middle(box)) / size;
+            // Of the whole file's triangles, as they lie in the world, rather than of the node's own.
+            const double away_in_world = length(center - middle(bounds_of(scene, node, {}))) / size;
+            if (away < 1 && away < away_in_world + 0.1 && ratio > 0.4 && ratio < 2.5) continue;
+            sentences.push_back(
+                map.file.name + " does not fit node '" + map.node +
+                "': it lies elsewhere or is of another size than the node's triangles. A map takes a "
+                "node's place in the node's own space; was it baked from a file whose nodes are moved?");
+            break;
+        }
+    }
+    return sentences;
+}
+
+std::vector<PlacedMap> place_maps(const Scene& scene, const RenderArguments& arguments) {
+    std::vector<PlacedMap> maps;
+    for (const MapArgument& map : arguments.maps)
+        maps.push_back({map.node,
+                        {},
+                        map.node.empty() ? std::vector{no_index}
+                                         : find_nodes(scene, arguments.scene.string(), map.node)});
+    check_apart(scene, maps);
+    if (!arguments.uses_maps()) return {};
+    for (std::size_t i = 0; i < maps.size(); ++i) maps[i].file = open_map(arguments.maps[i].file);
+    return maps;
+}
+
+bool is_below(const Scene& scene, std::uint32_t node, std::uint32_t above) {
+    for (node = scene.nodes[node].parent; node != no_index; node = scene.nodes[node].parent)
+        if (node == above) return true;
+    return false;
+}
+
+render::MapPlacement placement(std::uint32_t node, const SphericalMap* map,
+                               const RenderArguments& arguments) {
+    render::MapPlacement result;
+    result.node = node;
+    result.map = map;
+    result.layers = arguments.layers;
+    result.test_points = arguments.method != MapMethod::projective;
+    result.dropped = map == nullptr;
+    return result;
 }
 
 Camera choose_camera(const Scene& scene, const RenderArguments& arguments) {
@@ -194,7 +348,7 @@ const Camera& find_camera(const Scene& scene, const std::filesystem::path& scene
     const auto named = std::find_if(cameras.begin(), cameras.end(),
                                     [&](const Camera& other) { return other.name == camera; });
     if (named != cameras.end()) return *named;
-    const std::optional<std::size_t> index = number(camera);
+    const std::optional<std::size_t> index = whole_number(camera);
     if (index && *index < cameras.size()) return cameras[*index];
     throw Error(ExitCode::usage,
                 "--camera: there is no camera '" + camera + "' in " + scene_path.string() +
@@ -250,14 +404,8 @@ std::vector<Camera> surrounding_cameras(const Model& model, double aspect, std::
     return cameras;
 }
 
-Light default_sun(const Camera& camera) {
-    Light sun;
-    sun.name = "sun";
-    sun.kind = LightKind::directional;
-    sun.direction = normalize(transform_vector(camera.to_world, Vec3d{1, -1.5, -1}));
-    const auto irradiance = float(std::numbers::pi);
-    sun.intensity = {irradiance, irradiance, irradiance};
-    return sun;
-}
+Light default_sun(const Camera& camera) { return sun_along(camera, {1, -1.5, -1}, std::numbers::pi); }
+
+Light default_fill(const Camera& camera) { return sun_along(camera, {-1, -0.4, -1}, std::numbers::pi / 3); }
 
 } // namespace spa::tools

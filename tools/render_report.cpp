@@ -29,8 +29,12 @@ struct Counts {
 Counts count_triangles(const RenderFacts& facts) {
     const Scene& scene = facts.scene;
     std::vector<bool> replaced(scene.nodes.size(), false);
-    for (const PlacedMap& map : facts.maps)
-        for (const std::uint32_t node : map.nodes) replaced[node] = true;
+    for (const PlacedMap& map : facts.maps) {
+        if (map.replaces_scene())
+            replaced.assign(replaced.size(), true);
+        else
+            for (const std::uint32_t node : map.nodes) replaced[node] = true;
+    }
     // Whether a map takes the place of a node or of one above it.
     const auto is_replaced = [&](std::uint32_t node) {
         for (; node != no_index; node = scene.nodes[node].parent)
@@ -74,7 +78,7 @@ Json scene_json(const RenderFacts& facts) {
     const Counts counts = count_triangles(facts);
     Json maps = Json::array();
     for (const PlacedMap& map : facts.maps)
-        maps.push_back({{"node", map.node},
+        maps.push_back({{"node", map.replaces_scene() ? Json(nullptr) : Json(map.node)},
                         {"file", map.file.name},
                         {"parts", map.file.map().parts.size()},
                         {"places", map.nodes.size()}});
@@ -85,6 +89,27 @@ Json scene_json(const RenderFacts& facts) {
             {"cameras", facts.scene.cameras.size()},
             {"lights", facts.scene.lights.size()},
             {"maps", maps}};
+}
+
+Json animation_json(const RenderFacts& facts) {
+    if (!facts.animation) return nullptr;
+    const Animation& animation = facts.scene.rig.animations[*facts.animation];
+    return {{"index", *facts.animation},
+            {"name", animation.name},
+            {"seconds", animation.seconds},
+            {"time", facts.arguments.frames == 0 ? Json(facts.arguments.time.value_or(0)) : Json(nullptr)},
+            {"frames", frames_json(facts.frames)}};
+}
+
+std::string animation_text(const RenderFacts& facts) {
+    if (!facts.animation) return "";
+    const Animation& animation = facts.scene.rig.animations[*facts.animation];
+    std::string text = (animation.name.empty() ? std::to_string(*facts.animation) : animation.name) + ", " +
+                       significant(animation.seconds, 4) + " s";
+    text += facts.arguments.frames == 0
+                ? ", at " + significant(facts.arguments.time.value_or(0), 4) + " s"
+                : ", " + std::to_string(facts.arguments.frames) + " frames evenly over it";
+    return line("animation", text) + frames_text(facts.frames, label_width);
 }
 
 Json rays_json(const render::FrameTimes& times) {
@@ -176,6 +201,7 @@ Json report_json(const RenderFacts& facts) {
           {"secondary", facts.frame_times.secondary},
           {"all", facts.seconds}}},
         {"rays", rays_json(facts.frame_times)},
+        {"animation", animation_json(facts)},
         {"comparison", facts.comparison ? comparison_json(*facts.comparison, facts.arguments.compare.string())
                                         : Json(nullptr)},
         {"plan", facts.plan ? plan_json(*facts.plan) : Json(nullptr)},
@@ -193,7 +219,7 @@ std::string report_text(const RenderFacts& facts) {
                               (facts.scene.lights.size() == 1 ? " light" : " lights"));
     for (const PlacedMap& map : facts.maps)
         text += line("map",
-                     map.file.name + " for " + map.node +
+                     map.file.name + " for " + (map.node.empty() ? "the whole scene" : map.node) +
                          (map.nodes.size() == 1 ? "" : ", " + std::to_string(map.nodes.size()) + " times"));
     if (counts.replaced != 0) text += line("", std::to_string(counts.replaced) + " triangles replaced");
     text +=
@@ -206,6 +232,7 @@ std::string report_text(const RenderFacts& facts) {
     text += line("", rays_text("secondary", times.secondary_rays, times.secondary));
     text += line("", std::to_string(times.shadow_rays) + " shadow, in the same times");
     text += memory_text(facts) + times_text(facts);
+    text += animation_text(facts);
     if (facts.comparison)
         text += comparison_text(*facts.comparison, facts.arguments.compare.string(), label_width);
     if (facts.plan) text += plan_text(*facts.plan, label_width);

@@ -3,8 +3,7 @@
 // Schemas: ../formats/schemas/render.schema.json, render-devices.schema.json.
 #pragma once
 
-#include "render_compare.h"
-#include "render_input.h"
+#include "render_frames.h"
 #include "render_plan.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -36,6 +35,8 @@ struct RenderFacts {
     double seconds = 0;      // all
     std::optional<ImageComparison> comparison{};
     std::optional<PlanFacts> plan{};
+    std::optional<std::size_t> animation{}; // index into the rig's
+    std::vector<AnimationFrame> frames{};   // of --frames
     std::vector<WrittenFile> files{};
 };
 

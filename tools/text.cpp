@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "text.h"
 
+#include <charconv>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -51,6 +52,13 @@ std::string hexadecimal(std::string_view bytes) {
         text += {digits[value >> 4U], digits[value & 15U]};
     }
     return text;
+}
+
+std::optional<std::size_t> whole_number(std::string_view text) {
+    std::size_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc{} && stopped == end ? std::optional(value) : std::nullopt;
 }
 
 std::string pad_left(std::string text, std::size_t width) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,8 @@ std::string byte_count(std::uint64_t bytes);
 std::string hex64(std::uint64_t value);
 // Two lower-case digits a byte.
 std::string hexadecimal(std::string_view bytes);
+// Digits alone, of a number that fits; nothing for any other text.
+std::optional<std::size_t> whole_number(std::string_view text);
 std::string pad_left(std::string text, std::size_t width);
 std::string pad_right(std::string text, std::size_t width);
 // Breaks at spaces so that no line is longer than `width` (words longer than that stand alone). Empty lines

@@ -108,7 +108,7 @@ private:
         if (output.count / per_key != input.count || output.count % per_key != 0)
             fail(context_, where + ".output",
                  "has " + std::to_string(output.count) + " elements for " + std::to_string(input.count) +
-                     " times" + (per_key == 3 ? ", of which each wants 3" : ""));
+                     " times" + std::string(per_key == 3 ? ", of which each wants 3" : ""));
         claim((copies + 1) * sizeof(float) * (input.count + output.count * width), where);
         curve.times.resize(input.count);
         read_floats(input, buffers_, {}, 1, curve.times.data(), 1, context_);

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pose.h"
 
+#include "../core/error.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <unordered_map>
 
 namespace spa {
 namespace {
@@ -98,6 +102,33 @@ void pose_vertices(const Scene& scene, const std::vector<Affine>& to_world, Mode
             if (is_finite(normal) && !(normal == Vec3d{})) model.normals[v] = to_float(normal);
         }
     });
+}
+
+std::vector<Affine> pose_parts(const Scene& scene, const std::vector<Affine>& to_world,
+                               const SphericalMap& map, std::uint32_t node, const Affine& otherwise) {
+    std::unordered_map<std::uint32_t, std::uint32_t> followed; // by number in the source
+    std::vector<bool> below(scene.nodes.size());
+    for (const bool inside : {true, false})
+        for (std::uint32_t i = 0; i < scene.nodes.size(); ++i) {
+            const std::uint32_t parent = scene.nodes[i].parent;
+            below[i] = node == no_index || i == node || (parent != no_index && below[parent]);
+            if (below[i] == inside) followed.try_emplace(scene.nodes[i].source, i);
+        }
+    std::vector<Affine> out;
+    for (const Part& part : map.parts) {
+        if (part.node < 0) {
+            out.push_back(otherwise);
+            continue;
+        }
+        const auto found = followed.find(static_cast<std::uint32_t>(part.node));
+        if (found == followed.end())
+            throw Error(ExitCode::usage, "part " + std::to_string(out.size()) + " follows node " +
+                                             std::to_string(part.node) +
+                                             " of what it was baked from, which the scene has not; render "
+                                             "the asset that was baked");
+        out.push_back(to_world[found->second] * part.to_node);
+    }
+    return out;
 }
 
 } // namespace spa

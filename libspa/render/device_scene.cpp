@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <string>
 #include <tuple>
 
 namespace spa::render {
@@ -42,6 +43,27 @@ double sample_distance(const Part& part, const Affine& to_world) {
     return part.radius * scale * std::sqrt(4 * 3.14159265358979 / (double(depth.width) * depth.height));
 }
 
+// Where each part of the map stands in the world; of what is dropped there is none. Throws
+// Error{invalid_data} if one has no inverse.
+std::vector<Affine> places_of(const Scene& scene, const MapPlacement& placement) {
+    if (placement.dropped) return {};
+    std::vector<Affine> places = placement.parts;
+    if (places.empty())
+        places.assign(placement.map->parts.size(),
+                      placement.node == no_index ? Affine{} : scene.nodes[placement.node].to_world);
+    if (places.size() != placement.map->parts.size())
+        throw Error(ExitCode::usage, "a map of " + std::to_string(placement.map->parts.size()) +
+                                         " parts is placed by " + std::to_string(places.size()) +
+                                         " transforms");
+    for (const Affine& place : places)
+        if (!(std::abs(determinant(place.linear)) > 0))
+            throw Error(ExitCode::invalid_data,
+                        (placement.node == no_index ? "a part of the map of the scene"
+                                                    : "node '" + scene.nodes[placement.node].name + "'") +
+                            " has a transform without inverse: a map cannot replace it");
+    return places;
+}
+
 VkAccelerationStructureInstanceKHR triangle_instance(const vulkan::AccelerationStructure& structure,
                                                      std::uint32_t custom_index, std::uint32_t object) {
     VkAccelerationStructureInstanceKHR instance{};
@@ -56,17 +78,17 @@ VkAccelerationStructureInstanceKHR triangle_instance(const vulkan::AccelerationS
 
 DeviceScene::State::State(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps,
                           bool keep_replaced)
-    : has_replaced(keep_replaced || maps.empty()) {
-    const std::vector<std::uint32_t> objects = objects_of_nodes(scene, maps);
-    const SceneTriangles triangles = group_triangles(scene, objects, maps.size(), keep_replaced);
+    : has_replaced(keep_replaced || maps.empty()), keeps_replaced_(keep_replaced),
+      objects_(objects_of_nodes(scene, maps)) {
+    const SceneTriangles triangles = group_triangles(scene, objects_, maps.size(), keep_replaced);
     const double scene_size = diagonal(scene.model.positions) * scene_offset;
     offsets_.push_back(float(scene_size));
     globals.offset = float(scene_size);
     for (const MapPlacement& placement : maps) {
         double size = 0;
-        if (!placement.dropped)
-            for (const Part& part : placement.map->parts)
-                size = std::max(size, sample_distance(part, scene.nodes[placement.node].to_world));
+        const std::vector<Affine> places = places_of(scene, placement);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            size = std::max(size, sample_distance(placement.map->parts[i], places[i]));
         offsets_.push_back(float(std::max(scene_size, size * map_offset)));
     }
 
@@ -75,7 +97,8 @@ DeviceScene::State::State(const Gpu& gpu, const Scene& scene, std::span<const Ma
         add_materials(gpu, scene, triangles);
         add_lights(gpu, scene);
     });
-    add_triangle_instances(gpu, triangles);
+    build_structures(gpu);
+    add_triangle_instances();
     times.map_load = seconds_of([&] { add_maps(gpu, scene, maps); });
     times.upload += seconds_of([&] { globals.instances = keep(upload(gpu, instances_)); });
     times.top_level = seconds_of([&] { add_top_level(gpu); });
@@ -88,11 +111,14 @@ VkDeviceAddress DeviceScene::State::keep(vulkan::Buffer buffer) {
 }
 
 void DeviceScene::State::add_triangles(const Gpu& gpu, const Scene& scene, const SceneTriangles& triangles) {
-    globals.positions = positions_ = keep(upload(gpu, triangles.positions));
-    globals.normals = keep(upload(gpu, triangles.normals));
+    groups_ = triangles.groups;
+    positions_ = upload(gpu, triangles.positions);
+    normals_ = upload(gpu, triangles.normals);
+    globals.positions = positions_.address();
+    globals.normals = normals_.address();
     globals.uvs = keep(upload(gpu, triangles.uvs));
     globals.colors = keep(upload(gpu, triangles.colors));
-    globals.indices = indices_ = keep(upload(gpu, triangles.triangles));
+    globals.indices = keep(upload(gpu, triangles.triangles));
     globals.triangle_materials = keep(upload(gpu, triangles.materials));
 
     const Model& model = scene.model;
@@ -130,24 +156,31 @@ void DeviceScene::State::add_lights(const Gpu& gpu, const Scene& scene) {
     globals.light_count = std::uint32_t(scene.lights.size());
 }
 
-void DeviceScene::State::add_triangle_instances(const Gpu& gpu, const SceneTriangles& triangles) {
-    const auto first_replaced = std::find_if(triangles.groups.begin(), triangles.groups.end(),
+void DeviceScene::State::build_structures(const Gpu& gpu) {
+    const auto first_replaced = std::find_if(groups_.begin(), groups_.end(),
                                              [](const TriangleGroup& group) { return group.object != 0; });
-    const auto count = std::size_t(first_replaced - triangles.groups.begin());
-    const std::span<const TriangleGroup> groups(triangles.groups);
-    times.triangle_build =
-        seconds_of([&] { static_ = build_triangles(gpu, groups.first(count), positions_, indices_); });
-    times.replaced_build =
-        seconds_of([&] { replaced_ = build_triangles(gpu, groups.subspan(count), positions_, indices_); });
+    const auto count = std::size_t(first_replaced - groups_.begin());
+    const std::span<const TriangleGroup> groups(groups_);
+    const auto build = [&](std::span<const TriangleGroup> some, TriangleStructures& structures) {
+        structures.structures.clear(); // before the buffer that they lie in
+        structures = build_triangles(gpu, some, globals.positions, globals.indices);
+    };
+    times.triangle_build = seconds_of([&] { build(groups.first(count), static_); });
+    times.replaced_build = seconds_of([&] { build(groups.subspan(count), replaced_); });
     memory.triangle_structures = static_.storage.size();
     memory.replaced_structures = replaced_.storage.size();
+}
 
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-        const TriangleGroup& group = groups[i];
+const vulkan::AccelerationStructure& DeviceScene::State::structure_of(std::size_t group) const {
+    const std::size_t count = static_.structures.size();
+    return group < count ? static_.structures[group] : replaced_.structures[group - count];
+}
+
+void DeviceScene::State::add_triangle_instances() {
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+        const TriangleGroup& group = groups_[i];
         const auto custom_index = std::uint32_t(instances_.size());
-        const vulkan::AccelerationStructure& structure =
-            i < count ? static_.structures[i] : replaced_.structures[i - count];
-        top_instances_.push_back(triangle_instance(structure, custom_index, group.object));
+        top_instances_.push_back(triangle_instance(structure_of(i), custom_index, group.object));
         data::RenderInstance& instance = instances_.emplace_back();
         instance.first_triangle = group.first_triangle;
         instance.object = group.object;
@@ -184,18 +217,16 @@ void DeviceScene::State::load_maps(const Gpu& gpu, std::span<const MapPlacement>
 void DeviceScene::State::add_maps(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps) {
     load_maps(gpu, maps);
     for (std::size_t i = 0; i < maps.size(); ++i) {
+        first_instances_.push_back(top_instances_.size());
         if (maps[i].dropped) continue;
-        const SceneNode& node = scene.nodes[maps[i].node];
-        if (!(std::abs(determinant(node.to_world.linear)) > 0))
-            throw Error(ExitCode::invalid_data,
-                        "node '" + node.name + "' has a transform without inverse: a map cannot replace it");
+        const std::vector<Affine> places = places_of(scene, maps[i]);
         const vulkan::MapObject& map = *maps_[map_of_placement_[i]];
         for (std::uint32_t part = 0; part < map.part_count(); ++part) {
             vulkan::InstanceOptions options;
             options.custom_index = std::uint32_t(instances_.size());
             options.mask = SPA_MASK_MAPS;
             options.hit_record = first_map_record + std::uint32_t(records.size());
-            top_instances_.push_back(map.instance(part, node.to_world, options));
+            top_instances_.push_back(map.instance(part, places[part], options));
             const vulkan::ShaderRecord record =
                 map.shader_record(part, maps[i].test_points ? SPA_CULL_BACK : 0);
             records.push_back(record);
@@ -213,16 +244,50 @@ void DeviceScene::State::add_top_level(const Gpu& gpu) {
     // A structure has to have an instance: without a structure it is never hit.
     if (top_instances_.empty()) top_instances_.emplace_back();
     top_level_.emplace(gpu.device(), top_instances_);
-    vulkan::submit_and_wait(gpu.device(), gpu.queue(), gpu.queue_family(),
-                            [&](VkCommandBuffer commands) { top_level_->record(commands); });
+    build_top_level(gpu);
     globals.scene = top_level_->structure().address();
     memory.top_level = top_level_->bytes();
+}
+
+void DeviceScene::State::build_top_level(const Gpu& gpu) {
+    vulkan::submit_and_wait(gpu.device(), gpu.queue(), gpu.queue_family(),
+                            [&](VkCommandBuffer commands) { top_level_->record(commands); });
+}
+
+void DeviceScene::State::pose_triangles(const Gpu& gpu, const Scene& scene) {
+    const SceneTriangles triangles =
+        group_triangles(scene, objects_, map_of_placement_.size(), keeps_replaced_);
+    times.upload = seconds_of([&] {
+        copy_bytes(gpu, std::as_bytes(std::span(triangles.positions)), positions_, 0);
+        if (!normals_.empty()) copy_bytes(gpu, std::as_bytes(std::span(triangles.normals)), normals_, 0);
+    });
+    build_structures(gpu);
+    for (std::size_t i = 0; i < groups_.size(); ++i)
+        top_instances_[i].accelerationStructureReference = structure_of(i).address();
+}
+
+void DeviceScene::State::pose(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps) {
+    if (!groups_.empty()) pose_triangles(gpu, scene);
+    times.top_level = seconds_of([&] {
+        const std::span<VkAccelerationStructureInstanceKHR> instances(top_instances_);
+        for (std::size_t i = 0; i < maps.size(); ++i) {
+            if (maps[i].dropped) continue;
+            const vulkan::MapObject& map = *maps_[map_of_placement_[i]];
+            map.move(instances.subspan(first_instances_[i], map.part_count()), places_of(scene, maps[i]));
+        }
+        top_level_->set_instances(top_instances_);
+        build_top_level(gpu);
+    });
 }
 
 DeviceScene::DeviceScene(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps,
                          bool keep_replaced)
     : state_(std::make_unique<State>(gpu, scene, maps, keep_replaced)) {}
 DeviceScene::~DeviceScene() = default;
+
+void DeviceScene::pose(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps) {
+    state_->pose(gpu, scene, maps);
+}
 
 const SceneMemory& DeviceScene::memory() const { return state_->memory; }
 const SceneTimes& DeviceScene::times() const { return state_->times; }

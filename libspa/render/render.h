@@ -20,7 +20,7 @@ namespace spa::render {
 // Takes the place of all that a node and the nodes below it draw. Placements of one map share what it takes
 // on the device, if their options are the same.
 struct MapPlacement {
-    std::uint32_t node = 0; // index into Scene::nodes
+    std::uint32_t node = 0; // index into Scene::nodes; no_index: all of the scene
     const SphericalMap* map = nullptr;
     std::uint32_t layers = 0; // as many at most; 0: all
     bool holes = false;       // rays pass where less than half of a texel is covered (SPA_RECORD_COVERAGE)
@@ -28,6 +28,9 @@ struct MapPlacement {
     // leave the solid that they begin in, because the points that hit lie in the solid and are to be lit all
     // the same.
     bool test_points = false;
+    // Where each part stands, from the map's object space to the world (pose_parts, ../mesh/pose.h); empty:
+    // all stand at the node's to_world, or in the world itself where the map takes the place of the scene.
+    std::vector<Affine> parts{};
     // Nothing takes the place: rays that meet maps pass. `map` is null then.
     bool dropped = false;
 };
@@ -46,7 +49,7 @@ struct SceneTimes {            // seconds, by the wall
     double triangle_build = 0; // bottom levels of what maps do not replace
     double replaced_build = 0; // of what they do
     double map_load = 0;       // maps: compile, upload, bottom levels
-    double top_level = 0;
+    double top_level = 0;      // after pose() with moving the maps' instances
 };
 
 // A scene on a device. What maps replace is kept as triangles too if keep_replaced.
@@ -58,8 +61,15 @@ public:
     DeviceScene(const DeviceScene&) = delete;
     DeviceScene& operator=(const DeviceScene&) = delete;
 
+    // Another moment of an animation: `scene` and `maps` are those of the constructor but for the vertices'
+    // positions and normals and for where nodes and parts stand. Maps move with their instances alone;
+    // triangles, if there are any, are uploaded and their bottom levels built again; the top level is built
+    // again. Cameras, lights and materials stay. Not while frames of it are rendered. Throws Error as the
+    // constructor.
+    void pose(const Gpu& gpu, const Scene& scene, std::span<const MapPlacement> maps);
+
     [[nodiscard]] const SceneMemory& memory() const;
-    [[nodiscard]] const SceneTimes& times() const;
+    [[nodiscard]] const SceneTimes& times() const; // of what pose() does again: of the last pose()
 
     struct State;
     [[nodiscard]] State& state() const { return *state_; }

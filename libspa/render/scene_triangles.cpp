@@ -61,6 +61,10 @@ std::vector<std::uint32_t> objects_of_nodes(const Scene& scene, std::span<const 
     for (std::size_t i = 0; i < maps.size(); ++i) {
         if (maps[i].dropped != (maps[i].map == nullptr))
             throw Error(ExitCode::usage, "a placement has no map, or is dropped and has one");
+        if (maps[i].node == no_index && maps.size() > 1)
+            throw Error(ExitCode::usage,
+                        "a map takes the place of the whole scene, and another one that of a node of it");
+        if (maps[i].node == no_index) return std::vector<std::uint32_t>(scene.nodes.size(), 1);
         if (maps[i].node >= scene.nodes.size())
             throw Error(ExitCode::usage, "a map is to replace node " + std::to_string(maps[i].node) +
                                              ", but the scene has " + std::to_string(scene.nodes.size()) +

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace spa::trace {
 namespace {
@@ -45,13 +46,26 @@ std::uint32_t Scene::add(const TraceMap& map, const Part& part, const Affine& ob
     if (part.mapping != Mapping::octahedral)
         throw Error(ExitCode::unsupported, "a scene traces octahedral maps; this one is " +
                                                std::string(name(part.mapping)) + ": bake it as octahedral");
-    Instance instance{&map, map_space(part, object_to_world), 0};
-    if (!is_finite(instance.space.to_world) || !is_finite(instance.space.to_map) ||
-        !spa::is_finite(instance.space.origin))
-        throw Error(ExitCode::usage, "an instance's transform has no inverse");
-    instance.radius = largest_stretch(instance.space.to_world) * double(map.map().radius);
+    Instance instance{&map, {}, 0};
+    place(instance, part, object_to_world);
+    Part placement = part;
+    placement.layers.clear(); // views that may not outlive this object
+    placement.mixed = placement.folds = {};
+    parts_.push_back(std::move(placement));
     instances_.push_back(instance);
     return size() - 1;
+}
+
+void Scene::move(std::uint32_t instance, const Affine& object_to_world) {
+    place(instances_[instance], parts_[instance], object_to_world);
+}
+
+void Scene::place(Instance& instance, const Part& part, const Affine& object_to_world) {
+    const MapSpace space = map_space(part, object_to_world);
+    if (!is_finite(space.to_world) || !is_finite(space.to_map) || !spa::is_finite(space.origin))
+        throw Error(ExitCode::usage, "an instance's transform has no inverse");
+    instance.space = space;
+    instance.radius = largest_stretch(space.to_world) * double(instance.map->map().radius);
 }
 
 // Conservative; in double precision, so that slack need not depend on how far away a ray begins. False also

@@ -25,6 +25,10 @@ public:
     // inverse or with numbers that are not finite.
     std::uint32_t add(const TraceMap& map, const Part& part, const Affine& object_to_world = {});
 
+    // Puts an instance elsewhere: nothing is compiled or built again. Not while rays are traced. Throws as
+    // add, and leaves it where it is then. O(1).
+    void move(std::uint32_t instance, const Affine& object_to_world);
+
     [[nodiscard]] std::uint32_t size() const { return std::uint32_t(instances_.size()); }
     [[nodiscard]] const TraceMap& map(std::uint32_t instance) const { return *instances_[instance].map; }
     [[nodiscard]] const MapSpace& space(std::uint32_t instance) const { return instances_[instance].space; }
@@ -61,6 +65,8 @@ private:
     };
     struct Block;
 
+    // At object_to_world. Throws as add.
+    static void place(Instance& instance, const Part& part, const Affine& object_to_world);
     static bool may_hit(const Instance& instance, const Ray& ray);
     template <class Result, class Trace>
     static void trace_blocks(std::span<const Ray> rays, std::span<Result> results, Trace trace_block);
@@ -70,6 +76,7 @@ private:
                            Block& block) const;
 
     std::vector<Instance> instances_;
+    std::vector<Part> parts_; // of the instances, without layers: what map_space needs
 };
 
 } // namespace spa::trace

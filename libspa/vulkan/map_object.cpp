@@ -109,14 +109,25 @@ ShaderRecord MapObject::shader_record(std::uint32_t part, std::uint32_t flags) c
     return {images_.address() + parts_[part].packed.image, flags, part};
 }
 
+VkTransformMatrixKHR MapObject::transform(std::uint32_t part, const Affine& object_to_world) const {
+    const auto rows = trace::instance_rows(trace::map_space(parts_[part].packed.placement, object_to_world));
+    VkTransformMatrixKHR transform{};
+    static_assert(sizeof rows == sizeof transform.matrix);
+    std::memcpy(transform.matrix, rows.data(), sizeof rows);
+    return transform;
+}
+
+void MapObject::move(std::span<VkAccelerationStructureInstanceKHR> instances,
+                     std::span<const Affine> object_to_world) const {
+    for (std::uint32_t part = 0; part < part_count(); ++part)
+        instances[part].transform = transform(part, object_to_world[part]);
+}
+
 VkAccelerationStructureInstanceKHR MapObject::instance(std::uint32_t part, const Affine& object_to_world,
                                                        const InstanceOptions& options) const {
     const LoadedPart& loaded = parts_[part];
-    const trace::MapSpace space = trace::map_space(loaded.packed.placement, object_to_world);
     VkAccelerationStructureInstanceKHR instance{};
-    const auto rows = trace::instance_rows(space);
-    static_assert(sizeof rows == sizeof instance.transform.matrix);
-    std::memcpy(instance.transform.matrix, rows.data(), sizeof rows);
+    instance.transform = transform(part, object_to_world);
     instance.instanceCustomIndex = options.custom_index & 0xFFFFFFU;
     instance.mask = options.mask;
     instance.instanceShaderBindingTableRecordOffset = options.hit_record & 0xFFFFFFU;

@@ -10,7 +10,8 @@
 //      acceleration structure a part. Submit it. load() does both for an application that may wait.
 //   4. After the submission's fence: finish() gives staging and scratch memory back.
 //   5. Put instance() of every part into a top-level structure, as often as wanted. Its instances with
-//      transforms of their own are what moves; bottom levels are never built again.
+//      transforms of their own are what moves: move() for another pose, then the top level again
+//      (TopLevel::set_instances and record); bottom levels are never built again.
 //   6a. Ray-tracing pipelines: a hit group from the shaders of hit_group.h, a shader record a part: the
 //   group's
 //      handle, then the 16 bytes of shader_record(); InstanceOptions::hit_record says which is an instance's.
@@ -88,6 +89,11 @@ public:
     // so that t is the world's. object_to_world has an inverse; it may mirror, shear and scale unevenly.
     [[nodiscard]] VkAccelerationStructureInstanceKHR
     instance(std::uint32_t part, const Affine& object_to_world, const InstanceOptions& options = {}) const;
+    // Another pose: of instances that instance() made, part by part from the first one on, the transforms
+    // alone become others. object_to_world: one entry a part (pose_parts, ../mesh/pose.h), as for instance();
+    // instances: as many. O(parts).
+    void move(std::span<VkAccelerationStructureInstanceKHR> instances,
+              std::span<const Affine> object_to_world) const;
     [[nodiscard]] const MemoryUsed& memory() const { return memory_; }
 
 private:
@@ -98,6 +104,7 @@ private:
     };
     void write_images(const SphericalMap& map, const LoadOptions& options);
     void create_structures();
+    [[nodiscard]] VkTransformMatrixKHR transform(std::uint32_t part, const Affine& object_to_world) const;
     [[nodiscard]] VkAccelerationStructureGeometryKHR box_geometry(std::uint32_t part) const;
 
     const Device* device_;

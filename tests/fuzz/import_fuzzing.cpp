@@ -6,6 +6,7 @@
 #include "../../formats/import/readers.h"
 #include "../../formats/import/texture.h"
 #include "../../libspa/core/error.h"
+#include "../../libspa/mesh/pose.h"
 
 #include <algorithm>
 #include <array>
@@ -148,6 +149,41 @@ void check_scene(const Scene& scene) {
                 "a light outside its ranges");
 }
 
+void check_curve(const Curve& curve, std::size_t width) {
+    const std::size_t per_key = curve.interpolation == Interpolation::cubic_spline ? 3 : 1;
+    require(curve.values.size() == curve.times.size() * per_key * width, "a curve of another size");
+    for (std::size_t i = 0; i < curve.times.size(); ++i)
+        require(std::isfinite(curve.times[i]) && (i == 0 || curve.times[i - 1] < curve.times[i]),
+                "a time that does not grow");
+    for (const float value : curve.values) require(std::isfinite(value), "a value is not finite");
+}
+
+// As rig.h promises; and every animation can be played.
+void check_rig(const Scene& scene) {
+    const Rig& rig = scene.rig;
+    const std::size_t vertices = scene.model.positions.size();
+    require(!rig.empty() && rig.positions.size() == vertices && rig.normals.size() == vertices &&
+                rig.first.size() == vertices + 1 && rig.first.front() == 0 &&
+                rig.first.back() == rig.influences.size(),
+            "a rig of another size");
+    for (std::size_t v = 0; v < vertices; ++v)
+        require(rig.first[v] < rig.first[v + 1], "a vertex without influence");
+    for (const Influence& influence : rig.influences)
+        require(influence.bone < rig.bones.size() && std::isfinite(influence.weight) && influence.weight != 0,
+                "an influence outside its ranges");
+    for (const Bone& bone : rig.bones) require(bone.node < scene.nodes.size(), "a bone without node");
+    for (const Animation& animation : rig.animations) {
+        for (const Track& track : animation.tracks) {
+            require(track.node < scene.nodes.size(), "a track without node");
+            check_curve(track.translations, 3);
+            check_curve(track.rotations, 4);
+            check_curve(track.scales, 3);
+        }
+        Model model = scene.model;
+        pose_vertices(scene, pose_nodes(scene, animation, animation.seconds / 2), model);
+    }
+}
+
 void check_report(const import::Report& report) {
     require(!report.format.empty() && !report.files.empty(), "a report without sources");
     require(report.warnings.size() <= import::max_warnings + 1, "too many warnings");
@@ -194,10 +230,18 @@ void read(const Asset& asset) {
         check_error(error, asset.path);
     }
     try {
-        const import::SceneResult result = import::read_asset_scene(asset, limits);
+        const import::SceneResult result = import::read_asset_scene(asset, limits, {});
         check_scene(result.scene);
         check_report(result.report);
         require(result.scene.model.triangles.size() == triangles, "the scene has another model");
+    } catch (const Error& error) {
+        check_error(error, asset.path);
+    }
+    try {
+        const import::SceneResult result = import::read_asset_scene(asset, limits, {.rig = true});
+        check_scene(result.scene);
+        check_rig(result.scene);
+        require(result.scene.model.triangles.size() == triangles, "the rig has another model");
     } catch (const Error& error) {
         check_error(error, asset.path);
     }

@@ -119,6 +119,44 @@ TEST_F(Maps, AndTrianglesAreTheSameByPipelineAndByQuery) {
     }
 }
 
+// Moved on the device, all is as if it had been uploaded where it stands.
+TEST_F(Maps, ArePosedAsIfTheyWereLoadedSo) {
+    make("torus", 32, 1);
+    settings.samples = 2;
+    const Scene at_first = scene;
+    const auto posed = load();
+    // The room stays, so that the scene is of the same size: rays start as far from surfaces.
+    for (std::size_t t = 0; t < scene.model.triangles.size(); ++t)
+        for (const std::uint32_t v : scene.model.triangles[t].vertex)
+            if (scene.triangle_nodes[t] == object)
+                scene.model.positions[v] = at_first.model.positions[v] + Vec3f{0.05F, 0.1F, 0};
+    Affine part = scene.nodes[object].to_world;
+    part.translation = part.translation + Vec3d{0.2, 0.1, 0};
+    scene.nodes[object].to_world = part;
+    const auto loaded = load();
+    EXPECT_NE(frame(*posed, Geometry::maps, Geometry::maps).depth,
+              frame(*loaded, Geometry::maps, Geometry::maps).depth);
+    // Once by the node and once by the part's own transform, which goes before.
+    for (const bool by_part : {false, true}) {
+        Scene target = scene;
+        render::MapPlacement placement{object, &baked.map.map, 0};
+        if (by_part) {
+            target.nodes[object].to_world = at_first.nodes[object].to_world;
+            placement.parts = {part};
+        }
+        posed->pose(*gpu, target, std::span(&placement, 1));
+        for (const Geometry primary : {Geometry::maps, Geometry::triangles}) {
+            const Frame a = frame(*posed, primary, Geometry::maps),
+                        b = frame(*loaded, primary, Geometry::maps);
+            EXPECT_EQ(a.depth, b.depth);
+            EXPECT_EQ(a.direct, b.direct);
+            EXPECT_EQ(a.indirect, b.indirect);
+        }
+    }
+    const render::MapPlacement wrong{object, &baked.map.map, 0, false, false, {part, part}};
+    EXPECT_THROW(posed->pose(*gpu, scene, std::span(&wrong, 1)), Error);
+}
+
 // A ball with a transparent band, so that light falls through it and its inside is seen.
 TEST_F(Maps, HaveHolesWhereTheyAreAskedFor) {
     Model ball = empty_model();

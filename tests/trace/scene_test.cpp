@@ -283,5 +283,34 @@ TEST(Scene, WhatIsNoRayMisses) {
     }
 }
 
+// Moved there, a scene is to the bit what it is put there.
+TEST(Scene, MovedIsAsPlaced) {
+    Random random(31);
+    FunctionMap bumpy{grid, bumps};
+    bumpy.part().frame = random_transform(random).linear;
+    bumpy.part().center = {0.2, 0.1, -0.3};
+    const TraceMap map(bumpy.part());
+    Scene placed, moved;
+    for (int i = 0; i < 5; ++i) {
+        const Affine place = random_transform(random);
+        (void)placed.add(map, bumpy.part(), place);
+        moved.move(moved.add(map, bumpy.part(), random_transform(random)), place);
+    }
+    int hits = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Ray ray{to_float(random.vector() * 6.0), 0, to_float(random.direction()), 100};
+        Hit a, b;
+        ASSERT_EQ(placed.closest_hit(ray, 0, a), moved.closest_hit(ray, 0, b)) << i;
+        if (!a.valid()) continue;
+        ++hits;
+        EXPECT_EQ(a.t, b.t);
+        EXPECT_EQ(a.instance, b.instance);
+        EXPECT_EQ(a.normal, b.normal);
+    }
+    EXPECT_GT(hits, 50);
+    EXPECT_THROW(moved.move(0, {{{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}}, {}}), Error);
+    EXPECT_EQ(moved.space(0).origin, placed.space(0).origin) << "it stays where it was";
+}
+
 } // namespace
 } // namespace spa::test
