@@ -140,7 +140,7 @@ Scene make_room(int level) {
     add_things(scene, level);
     add_small_and_far(scene, level);
     scene.add_camera("view", {-0.1, 1.6, 4.6}, {-0.1, 0.75, -1}, 46);
-    scene.add_camera("floor", {0.3, 0.5, 2.4}, {-0.5, 0.25, 0}, 50);
+    scene.add_camera("low", {0.3, 0.5, 2.4}, {-0.5, 0.25, 0}, 50);
     scene.add_point_light("lamp", {-0.6, 2.3, 0.2}, 10);
     scene.add_point_light("yard lamp", {2.5, 5, -8}, 60);
     return scene.take();

@@ -48,9 +48,6 @@ constexpr std::uint32_t max_height = 8192;
 constexpr std::uint32_t max_layers = 64;
 constexpr std::uint32_t max_samples = 8;
 
-constexpr bake::Frame default_frame = bake::Frame::automatic;
-constexpr bake::Center default_center = bake::Center::automatic;
-
 constexpr std::uint32_t paper_width = 640, paper_height = 480;
 
 // As given; what is absent is decided when all of them are known.
@@ -112,8 +109,8 @@ BakeSettings complete(const Given& given) {
     options.depth = given.depth.value_or(given.paper ? ElementFormat::u8 : options.depth);
     options.normals = given.normals.value_or(given.paper ? ElementFormat::rgb8 : options.normals);
     options.layers = given.layers.value_or(given.paper ? 1 : options.layers);
-    options.frame = given.frame.value_or(given.paper ? bake::Frame::sphere : default_frame);
-    options.center = given.center.value_or(given.paper ? bake::Center::bounds : default_center);
+    options.frame = given.frame.value_or(given.paper ? bake::Frame::sphere : options.frame);
+    options.center = given.center.value_or(given.paper ? bake::Center::bounds : options.center);
     settings.search = complete_search(given.search,
                                       {given.size || given.paper, given.color_size || given.paper,
                                        given.depth || given.paper, given.layers || given.paper,
@@ -131,7 +128,7 @@ BakeSettings complete(const Given& given) {
 }
 
 void define_map_options(CLI::App& app, Given& given) {
-    const bake::Options defaults;
+    const bake::Options defaults = BakeSettings{}.options;
     add_choice<Mapping>(app, "--mapping", {Mapping::octahedral, Mapping::latlong},
                         "How directions are laid out in the images",
                         [&given](Mapping mapping) { given.mapping = mapping; })
@@ -187,13 +184,13 @@ void define_map_options(CLI::App& app, Given& given) {
                             "bounding box is a cube, which suits long and flat objects, or which of the two "
                             "samples the surface more finely",
                             [&given](bake::Frame frame) { given.frame = frame; })
-        ->default_str(name(default_frame));
+        ->default_str(name(defaults.frame));
     add_choice<bake::Center>(
         app, "--center", {bake::Center::automatic, bake::Center::bounds, bake::Center::captured},
         "The point that directions start from: the centre of the bounding box, or the point from which the "
         "layers hold the surface best, or this one only where it is clearly better",
         [&given](bake::Center center) { given.center = center; })
-        ->default_str(name(default_center));
+        ->default_str(name(defaults.center));
     app.add_flag("--paper", given.paper,
                  "The layout of the paper: --mapping latlong --size 640x480 --depth u8 --normals rgb8 "
                  "--layers 1 --frame "

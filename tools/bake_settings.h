@@ -19,7 +19,7 @@
 namespace spa::tools {
 
 struct BakeSettings {
-    bake::Options options;
+    bake::Options options{.frame = bake::Frame::automatic, .center = bake::Center::automatic};
     PartsKind parts = PartsKind::whole;
     std::uint32_t max_parts = default_max_parts;
     bool compress = true; // zstd

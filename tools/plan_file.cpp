@@ -26,7 +26,8 @@ using Json = nlohmann::json;
 
 constexpr std::uintmax_t most_bytes = std::uintmax_t(256) << 20U; // some 1000 an object are usual
 constexpr std::size_t most_objects = std::size_t(1) << 16U;
-constexpr std::uint32_t largest_size = 8192; // of spa bake --size
+constexpr std::uint32_t most_samples = 1U << 20U; // of spa render --samples
+constexpr std::uint32_t largest_size = 8192;      // of spa bake --size
 
 // A value of the plan and where it stands.
 class Value {
@@ -201,7 +202,9 @@ Plan read_plan(const fs::path& path) {
     if (scene.empty()) document["scene"]["path"].refuse("is empty");
     plan.scene = path.parent_path() / scene; // the second alone if it is absolute
     plan.files = parse_files(document["scene"]["files"]);
-    if (document["request"].has("camera")) plan.camera = document["request"]["camera"].text();
+    const Value request = document["request"];
+    if (request.has("camera")) plan.camera = request["camera"].text();
+    if (request.has("samples")) plan.samples = std::uint32_t(request["samples"].number(0, most_samples));
     plan.one_size = std::uint32_t(document["one_size"].number(2, largest_size));
     if (plan.one_size % 2 != 0) document["one_size"].refuse("is odd; the sizes of maps are even");
     const std::vector<Value> objects = document["objects"].elements(most_objects);

@@ -41,8 +41,9 @@ struct Plan {
     std::filesystem::path path;
     std::filesystem::path scene; // as it is to be opened
     std::vector<PlanSource> files;
-    std::optional<std::string> camera; // that it was made for
-    std::uint32_t one_size = 0;        // --size of maps that are all of one size
+    std::optional<std::string> camera;    // that it was made for
+    std::optional<std::uint32_t> samples; // the same: secondary rays of a primary hit
+    std::uint32_t one_size = 0;           // --size of maps that are all of one size
     std::vector<PlanObject> objects;
     std::map<std::uint32_t, std::size_t> by_node; // indices into objects
 

@@ -198,7 +198,7 @@ void judge(const std::optional<ImageComparison>& comparison, const RenderArgumen
 void compare_with_plan(RenderFacts& facts, const PlacedPlan& placed, const render::Gpu& gpu,
                        const Scene& scene, const render::Frame& frame,
                        const std::optional<import::LinearPicture>& reference) {
-    facts.plan.emplace(PlanFacts{placed, {}, {}, {}, {}, 0, 0});
+    facts.plan.emplace(PlanFacts{placed, {}, {}, {}, {}, 0});
     PlanVariant& plan = facts.plan->plan;
     plan.times = facts.frame_times;
     plan.memory = facts.memory;
@@ -220,6 +220,7 @@ void render_scene(const RenderArguments& given) {
     if (!arguments.plan.empty()) plan = read_plan(arguments.plan);
     if (plan && arguments.scene.empty()) arguments.scene = plan->scene;
     if (plan && !arguments.camera) arguments.camera = plan->camera;
+    if (plan && plan->samples && !arguments.has_samples) arguments.settings.samples = *plan->samples;
     const Stopwatch all;
     check_outputs(arguments, {});
     std::optional<InterruptGuard> guard(std::in_place);

@@ -113,6 +113,7 @@ void complete_geometry(Given& given) {
         settings.shadow = given.shadow.value_or(settings.shadow);
         settings.secondary = given.secondary.value_or(settings.secondary);
     }
+    arguments.has_samples = given.samples || arguments.reference;
     settings.samples = given.samples.value_or(arguments.reference ? reference_samples : settings.samples);
 }
 
@@ -331,7 +332,9 @@ std::function<RenderArguments()> define_render_arguments(CLI::App& app) {
     add_text(
         app, "--plan", "PLAN.json",
         "Show the scene as 'spa plan' decided, with the maps that 'spa batch --from-plan' baked: without "
-        "SCENE the scene of the plan. Also renders it as triangles alone and with maps of one size, and "
+        "SCENE the scene of the plan, without --camera and --samples those that it was made for. Also "
+        "renders "
+        "it as triangles alone and with maps of one size, and "
         "reports errors, speed and memory of the three",
         [=, &arguments](const std::string& text) {
             arguments.plan = text;

@@ -41,8 +41,9 @@ struct RenderArguments {
     std::filesystem::path scene, output;
     std::vector<MapArgument> maps;
     std::filesystem::path plan, plan_maps, plan_sheet; // empty: none, beside the plan, none
-    bool plan_only = false;                            // without what it is compared with
-    std::uint32_t layers = 0;                          // of the maps; 0: all
+    bool has_samples = false; // --samples or --reference was given: the plan's do not count
+    bool plan_only = false;   // without what it is compared with
+    std::uint32_t layers = 0; // of the maps; 0: all
     std::optional<std::string> camera, animation;
     std::optional<double> time; // seconds
     std::uint32_t frames = 0;   // pictures of a sheet; 0: one picture, not a sheet

@@ -63,13 +63,15 @@ MapFile open_planned_map(const Scene& scene, const RenderArguments& arguments, c
     return file;
 }
 
-std::uint64_t unique_triangles(const Scene& scene, const Plan& plan) {
-    std::vector<bool> repeated(scene.nodes.size()); // a node comes behind its parent
-    for (const PlanObject& object : plan.objects) repeated[object.node] = object.same_as.has_value();
-    for (std::size_t node = 0; node < repeated.size(); ++node)
-        if (scene.nodes[node].parent != no_index && repeated[scene.nodes[node].parent]) repeated[node] = true;
+// Of the nodes of those objects, and of nodes below them.
+template <class Condition>
+std::uint64_t count_triangles(const Scene& scene, const Plan& plan, const Condition& condition) {
+    std::vector<bool> counts(scene.nodes.size()); // a node comes behind its parent
+    for (const PlanObject& object : plan.objects) counts[object.node] = condition(object);
+    for (std::size_t node = 0; node < counts.size(); ++node)
+        if (scene.nodes[node].parent != no_index && counts[scene.nodes[node].parent]) counts[node] = true;
     return std::uint64_t(std::count_if(scene.triangle_nodes.begin(), scene.triangle_nodes.end(),
-                                       [&](std::uint32_t node) { return !repeated[node]; }));
+                                       [&](std::uint32_t node) { return counts[node]; }));
 }
 
 render::Settings with_triangles(render::Settings settings) {
@@ -110,8 +112,15 @@ private:
 } // namespace
 
 PlacedPlan place_plan(const Scene& scene, const RenderArguments& arguments, Plan plan) {
-    PlacedPlan placed{std::move(plan), {}, {}, 0};
+    PlacedPlan placed;
+    placed.plan = std::move(plan);
     check_nodes(scene, arguments, placed.plan);
+    placed.dropped_triangles = count_triangles(
+        scene, placed.plan, [](const PlanObject& object) { return object.decision == PlanDecision::drop; });
+    placed.unique_triangles =
+        scene.model.triangles.size() - count_triangles(scene, placed.plan, [](const PlanObject& object) {
+            return object.same_as.has_value();
+        });
     std::map<std::uint32_t, std::size_t> map_of; // by the node that has it for its own
     for (const PlanObject& object : placed.plan.objects) {
         if (object.decision == PlanDecision::drop) placed.dropped.push_back(object.node);
@@ -144,7 +153,6 @@ void compare_plan(PlanFacts& facts, const RenderArguments& arguments, const rend
                   const Scene& scene, const render::Settings& settings, const render::Frame& frame,
                   const import::LinearPicture* reference, const RenderVariant& draw) {
     const Plan& plan = facts.placed.plan;
-    facts.unique_triangles = unique_triangles(scene, plan);
     Comparison comparison(arguments, reference);
     PlanVariant& triangles = facts.triangles.emplace();
     {

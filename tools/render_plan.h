@@ -23,6 +23,8 @@ struct PlacedPlan {
     std::vector<PlacedMap> maps;        // each once, with the nodes of all objects that have it
     std::vector<std::uint32_t> dropped; // nodes that only rays which meet triangles see
     std::uint64_t file_bytes = 0;       // of the maps
+    std::uint64_t dropped_triangles = 0;
+    std::uint64_t unique_triangles = 0; // of the scene, without those of instances of another object's mesh
 };
 
 // Opens the maps where `spa batch --from-plan` wrote them: below the plan's folder or arguments.plan_maps.
@@ -50,7 +52,6 @@ struct PlanFacts {
     std::optional<PlanVariant> triangles, one_size; // none with --plan-only
     std::vector<std::string> not_baked;             // for one size: sentences
     double bake_seconds = 0;
-    std::uint64_t unique_triangles = 0; // without those of instances of a mesh that another object has
 };
 
 // What the comparison needs of the verb: renders with progress under this name.

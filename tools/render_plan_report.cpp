@@ -133,7 +133,8 @@ Json plan_json(const PlanFacts& facts) {
             {"one_size", plan.one_size},
             {"not_baked", facts.not_baked},
             {"bake_seconds", facts.bake_seconds},
-            {"unique_triangles", facts.unique_triangles},
+            {"dropped_triangles", facts.placed.dropped_triangles},
+            {"unique_triangles", facts.placed.unique_triangles},
             {"variants",
              {{"triangles", variant_json(facts.triangles)},
               {"one_size", variant_json(facts.one_size)},
@@ -172,7 +173,7 @@ std::string plan_text(const PlanFacts& facts, std::size_t label_width) {
                        std::to_string(count(plan, PlanDecision::drop)) + " dropped\n";
     if (facts.one_size) {
         text += indent + "one size is " + std::to_string(plan.one_size) + ", baked in " +
-                significant(facts.bake_seconds, 3) + " s; " + std::to_string(facts.unique_triangles) +
+                significant(facts.bake_seconds, 3) + " s; " + std::to_string(facts.placed.unique_triangles) +
                 " triangles are no repetition of a mesh\n";
         for (const std::string& sentence : facts.not_baked) text += indent + "not baked: " + sentence + "\n";
     }

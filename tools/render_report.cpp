@@ -132,7 +132,7 @@ std::string rays_text(const char* what, std::uint64_t rays, double seconds) {
 
 std::string geometry_text(const RenderFacts& facts) {
     const render::Settings& settings = facts.settings;
-    if (facts.maps.empty()) return "triangles";
+    if (facts.maps.empty() && facts.arguments.plan.empty()) return "triangles";
     std::string text = std::string("primary ") + name(settings.primary) + ", shadow " +
                        name(settings.shadow) + ", secondary " + name(settings.secondary) + "; maps by " +
                        name(facts.arguments.method);

@@ -135,7 +135,7 @@ Verb report_verb() {
         .examples = "$ spa report maps -o report.html\n"
                     "$ spa report maps --source assets -o report.html\n"
                     "$ spa report room.maps PLAN.json -o report.html\n"
-                    "$ spa report maps --no-speed --format json | jq '.maps[] | [.name, .bytes]'",
+                    "$ spa report maps --no-speed --format json | jq .maps[0].errors",
         .see_also = "spa bake, spa batch, spa bench, spa validate",
         .define = [](CLI::App& app) -> std::function<void()> {
             const auto arguments = std::make_shared<Arguments>();

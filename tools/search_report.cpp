@@ -44,9 +44,9 @@ Json verdict_json(const SearchRequest& request, const SearchResult& search) {
 
 std::string candidate_text(const SearchRequest& request, const plan::Candidate& candidate) {
     const bake::Options options = plan::options_of(candidate, request.options);
-    return size_text(options.grid) + ", " + std::to_string(options.layers) +
-           (options.layers == 1 ? " layer, " : " layers, ") + name(options.depth) + ", " +
-           name(options.frame) + ", " + name(options.center);
+    return size_text(options.grid) + ", colour " + size_text(options.color_grid) + ", " +
+           std::to_string(options.layers) + (options.layers == 1 ? " layer, " : " layers, ") +
+           name(options.depth) + ", " + name(options.frame) + ", " + name(options.center);
 }
 
 std::string target_text(const SearchRequest& request) {
@@ -103,7 +103,7 @@ std::string search_text(const BakeSettings& settings, const SearchResult& search
                        " s\n";
     for (const Tried& entry : search.tried) {
         const std::string error = entry.error.samples == 0 ? "too large" : significant(entry.error.value, 3);
-        text += pad_right("", 10) + pad_right(candidate_text(request, entry.candidate), 40) +
+        text += pad_right("", 10) + pad_right(candidate_text(request, entry.candidate), 54) +
                 pad_left(byte_count(entry.bytes), 11) + pad_left(error, 11) +
                 (entry.candidate == *search.chosen ? (entry.met ? "  chosen" : "  nearest")
                  : entry.met                       ? "  meets it"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "auto_parts.h"
 
-#include "center.h"
-#include "radial.h"
+#include "coarse_model.h"
+#include "surface_views.h"
 
 #include "../mesh/components.h"
 #include "../mesh/part_frame.h"
@@ -16,7 +16,6 @@
 namespace spa::bake {
 namespace {
 
-constexpr Grid grid{Mapping::octahedral, 65, 65};
 constexpr double least_gain = 1e-3; // of the whole surface
 constexpr std::array places{0.25, 0.5, 0.75};
 
@@ -112,25 +111,10 @@ private:
 } // namespace
 
 double held_share(const Model& model, std::uint32_t layers) {
+    const Model coarse = coarse_model(model);
     bool moved = false;
-    const PartFrame frame = make_part_frame(model, bounds_center(model, moved), false);
-    const CrossingGrid crossings = cast_radial(center_model(model, frame), grid, {.outermost_only = false});
-    const std::uint64_t most = layers == 1 ? 1 : 2 * std::uint64_t(layers);
-    double held = 0, all = 0;
-    for (std::size_t s = 0; s + 1 < crossings.first.size(); ++s) {
-        const TexelIndex texel{std::uint32_t(s % grid.width), std::uint32_t(s / grid.width)};
-        const Vec3d u = normalize(sample_direction(grid, texel));
-        for (std::uint64_t i = crossings.first[s]; i < crossings.first[s + 1]; ++i) {
-            const Crossing& c = crossings.crossings[i];
-            const double r = double(c.radius);
-            // Grazing samples would count without bound for area that hardly any ray sees.
-            const double facing = std::max(std::abs(dot(u, normalize(plane_normal(model, c.triangle)))), 0.1);
-            const double area = solid_angle(grid, texel) * r * r / facing;
-            all += area;
-            if (i - crossings.first[s] < most) held += area;
-        }
-    }
-    return all > 0 ? held / all : 0;
+    const Vec3d center = bounds_center(model, moved);
+    return SurfaceViews(coarse, layers == 1 ? 1 : 2 * layers).from({center, {}}).captured;
 }
 
 Partition divide_by_need(const Model& model, std::uint32_t layers, std::uint32_t max_parts, double enough) {

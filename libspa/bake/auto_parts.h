@@ -10,9 +10,9 @@
 
 namespace spa::bake {
 
-// Share of the surface, of what lines from the centre of the model's bounding box meet of it, that `layers`
-// layers hold: the outermost crossing of each line for one layer, 2 * layers for more. Each crossing stands
-// for solid angle * r^2 / cos of its triangle's plane. On a map of 64 cells; O(triangles).
+// Share of the surface that `layers` layers hold around the centre of the model's bounding box
+// (View::captured of surface_views.h): the outermost crossing of each line for one layer, 2 * layers for
+// more. O(triangles).
 double held_share(const Model& model, std::uint32_t layers);
 
 // Begins with everything in one piece. As long as the pieces together hold less than `enough` of the surface,

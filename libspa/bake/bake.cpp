@@ -192,9 +192,7 @@ Result bake_with(const Caster& cast, const Model& model, const Options& options,
                 "the object is flat, so the centre of its bounding box would see it edge-on: the "
                 "centre was moved behind it");
         }
-        const auto place = [&](Vec3d at) {
-            return make_part_frame(model, at, report.placement.frame_chosen == Frame::affine);
-        };
+        const auto place = [&](Vec3d at) { return make_part_frame(model, at, report.placement.frame); };
         PartFrame frame = place(center);
         CenteredModel centered = center_model(model, frame);
         const bool ask_inside = options.one_depth();

@@ -72,19 +72,23 @@ Placement place_part(const Model& model, const Options& options, std::span<const
         const Axes box = oriented_bounds(model);
         if (!(box.extent[0] > 0)) return placement; // one point, which make_part_frame refuses
         placement.elongation = box.extent[0] / std::max(box.extent[2], 1e-6 * box.extent[0]);
-        stretched = make_part_frame(model, placement.center, true).frame;
+        stretched = affine_frame(box);
     }
-    if (options.frame == Frame::affine) placement.frame_chosen = Frame::affine;
+    if (options.frame == Frame::affine) {
+        placement.frame_chosen = Frame::affine;
+        placement.frame = stretched;
+    }
     if (options.center == Center::bounds && options.frame != Frame::automatic) return placement;
 
     const Model coarse = coarse_model(model);
     const SurfaceViews views(coarse, options.one_depth() ? 1 : 2 * options.layers);
     const auto look = [&](const Place& place) { return Seen{place, views.from(place)}; };
-    Seen seen = look({placement.center, options.frame == Frame::affine ? stretched : Mat3{}});
+    Seen seen = look({placement.center, placement.frame});
     if (options.frame == Frame::automatic) {
         const Seen affine = look({placement.center, stretched});
         if (affine.view.spacing < frame_margin * seen.view.spacing) {
             placement.frame_chosen = Frame::affine;
+            placement.frame = stretched;
             seen = affine;
         }
     }

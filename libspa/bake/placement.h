@@ -14,6 +14,7 @@ namespace spa::bake {
 
 struct Placement {
     Vec3d center;
+    Mat3 frame;
     Center center_chosen = Center::bounds; // or captured
     bool kernel = false;                   // captured: a point of the star kernel, which needs no search
     bool moved_behind = false;             // bounds: of a flat object (part_frame.h)

@@ -257,20 +257,24 @@ Vec3d bounds_center(const Model& model, bool& moved_off_surface) {
     return center + box.axis[2] * (side * box.extent[0] / 2);
 }
 
+Mat3 affine_frame(const Axes& box) {
+    if (!(box.extent[0] > 0)) return {};
+    const double floor = is_flat(box) ? 0.5 : 1e-6;
+    Mat3 columns; // rows of its transpose: axis k times its relative size
+    for (unsigned k = 0; k < 3; ++k) {
+        columns.row[k] = box.axis[k] * std::max(box.extent[k] / box.extent[0], floor);
+    }
+    return transpose(columns);
+}
+
 PartFrame make_part_frame(const Model& model, Vec3d center, bool affine) {
+    return make_part_frame(model, center, affine ? affine_frame(oriented_bounds(model)) : Mat3{});
+}
+
+PartFrame make_part_frame(const Model& model, Vec3d center, const Mat3& frame) {
     PartFrame part;
     part.center = center;
-    if (affine) {
-        const Axes box = oriented_bounds(model);
-        if (box.extent[0] > 0) {
-            const double floor = is_flat(box) ? 0.5 : 1e-6;
-            Mat3 columns; // rows of its transpose: axis k times its relative size
-            for (unsigned k = 0; k < 3; ++k) {
-                columns.row[k] = box.axis[k] * std::max(box.extent[k] / box.extent[0], floor);
-            }
-            part.frame = transpose(columns);
-        }
-    }
+    part.frame = frame;
     const Mat3 to_frame = inverse(part.frame);
     const double radius2 = UsedVertices(model).reduce(
         0.0,

@@ -32,9 +32,13 @@ Axes oriented_bounds(const Model& model);
 // against its mean normal; `moved_off_surface` tells. O(triangles).
 Vec3d bounds_center(const Model& model, bool& moved_off_surface);
 
-// The frame around a given centre. affine: the linear map that makes the oriented bounding box a cube (of a
-// flat object: only its two wide axes are normalised). Throws Error{invalid_data} for a model of zero size.
-// O(triangles).
+// The linear map that makes the box a cube of its largest side (of a flat object: only its two wide axes are
+// normalised). The identity for a box of zero size.
+Mat3 affine_frame(const Axes& box);
+
+// The frame around a given centre. Throws Error{invalid_data} for a model of zero size. O(triangles).
+PartFrame make_part_frame(const Model& model, Vec3d center, const Mat3& frame);
+// affine: affine_frame of the oriented bounding box; else the identity.
 PartFrame make_part_frame(const Model& model, Vec3d center, bool affine);
 
 } // namespace spa

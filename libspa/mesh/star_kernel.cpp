@@ -22,6 +22,18 @@ constexpr double share_of_depth = 0.5;
 constexpr std::size_t most_sampled = 4096;
 constexpr int most_rounds = 100; // what is seen is below 20
 
+struct Box {
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    Vec3d low{infinity, infinity, infinity};
+    Vec3d high{-infinity, -infinity, -infinity};
+
+    void extend(const Box& other) {
+        low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y), std::min(low.z, other.low.z)};
+        high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y),
+                std::max(high.z, other.high.z)};
+    }
+};
+
 struct Plane {
     Vec3d normal; // unit, out of the solid; zero: there is none
     double limit = 0;
@@ -66,15 +78,22 @@ private:
 class Planes {
 public:
     Planes(const Model& model, std::span<const std::uint8_t> turned) : model_(model), turned_(turned) {
-        Vec3d low{infinity, infinity, infinity};
-        Vec3d high = -low;
-        for (const Triangle& triangle : model.triangles) {
-            for (const std::uint32_t v : triangle.vertex) {
-                const Vec3d p = to_double(model.positions[v]);
-                low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-                high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-            }
-        }
+        const Box box = tbb::parallel_reduce(
+            tbb::blocked_range<std::size_t>(0, model.triangles.size(), 16384), Box{},
+            [&](const auto& range, Box found) {
+                for (std::size_t t = range.begin(); t < range.end(); ++t) {
+                    for (const std::uint32_t v : model.triangles[t].vertex) {
+                        const Vec3d p = to_double(model.positions[v]);
+                        found.extend({p, p});
+                    }
+                }
+                return found;
+            },
+            [](Box p, const Box& q) {
+                p.extend(q);
+                return p;
+            });
+        const Vec3d low = box.low, high = box.high;
         middle_ = (low + high) * 0.5;
         radius_ = length(high - low) / 2;
     }
@@ -107,8 +126,6 @@ public:
     }
 
 private:
-    static constexpr double infinity = std::numeric_limits<double>::infinity();
-
     [[nodiscard]] Plane plane_of(std::size_t t) const {
         const auto corner = [&](unsigned k) {
             return to_unit(to_double(model_.positions[model_.triangles[t].vertex[k]]));

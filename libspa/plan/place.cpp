@@ -53,7 +53,13 @@ void Place::choose_colors(std::vector<TriedColor>& tried) {
     // Where no size keeps the target, texels that bring less than a twentieth are not worth their bytes.
     constexpr double worth_it = 0.95;
     double best = std::numeric_limits<double>::infinity();
+    const std::uint64_t most_bytes = request_.max_bytes / 2; // the other half is for the shape
     for (const std::uint32_t cells : request_.color_cells) {
+        Candidate probe = candidate(cells, request_.layers.front(), request_.depths.front());
+        probe.color_cells = cells;
+        if (!tried.empty() &&
+            baker_.estimate_color_bytes(options_of(probe, request_.options), request_.compress) > most_bytes)
+            return;
         const double error = judge.error(cells);
         tried.push_back({cells, error});
         if (error < worth_it * best) {

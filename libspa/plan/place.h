@@ -24,7 +24,8 @@ public:
     [[nodiscard]] bake::Frame frame() const { return frame_; }
     [[nodiscard]] bake::Center center() const { return center_; }
 
-    // Decides on the size of colour; before that the smallest counts.
+    // Decides on the size of colour: the least that keeps the target, as far as it takes no more than half of
+    // max_bytes. Before that the smallest counts.
     void choose_colors(std::vector<TriedColor>& tried);
 
     // Of the place's frame and centre; what is not said is zero.

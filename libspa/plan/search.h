@@ -29,7 +29,8 @@ struct SearchRequest {
     std::vector<bake::Frame> frames{bake::Frame::sphere, bake::Frame::affine};
     std::vector<bake::Center> centers{bake::Center::bounds, bake::Center::captured};
     double footprint = 0;    // ColorJudge
-    double color_target = 4; // of ColorJudge::error; the least size of colour that keeps it is taken
+    double color_target = 4; // of ColorJudge::error; the least size of colour that keeps it is taken,
+                             // in half of max_bytes
     std::uint64_t max_bytes = std::numeric_limits<std::uint64_t>::max(); // of the file
     std::uint64_t other_bytes = 0; // of the file beside the map itself, such as its metadata
     bool compress = true;

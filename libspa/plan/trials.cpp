@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trials.h"
 
-#include "../bake/center.h"
+#include "../bake/coarse_model.h"
+#include "../bake/surface_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,7 +97,7 @@ void Trials::add(const ObjectGroup& group, const Model& model, std::uint32_t siz
     }
     trial.deviation = std::sqrt(variance);
     if (shape != nullptr) {
-        shape->captured = std::min(1.0, bake::captured_area(model, map.part().center));
+        shape->captured = std::min(1.0, bake::SurfaceViews(bake::coarse_model(model), 1).from({map.part().center, {}}).captured);
         shape->star_shaped = is_star(map.baked.report);
     }
     const auto after = std::find_if(series.trials.begin(), series.trials.end(),

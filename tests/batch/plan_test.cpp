@@ -68,6 +68,14 @@ protected:
     ordered_json plan_;
 };
 
+TEST_F(BatchPlan, IsReadAsThePlanVerbWritesIt) {
+    EXPECT_EQ(schema_error(load_schema("plan"), json(plan_)), "");
+    const tools::Plan plan = tools::read_plan(path("plan.json"));
+    EXPECT_EQ(plan.objects.size(), plan_["objects"].size());
+    EXPECT_EQ(plan.owner_of_map(plan.objects[2]).node, 1U) << "the twin has the ball's";
+    EXPECT_TRUE(tools::changed_sources(plan, path("scene.glb")).empty());
+}
+
 TEST_F(BatchPlan, BakesWhatIsToBeAMapAsBakeDoes) {
     const json report = this->report();
     ASSERT_EQ(report["assets"].size(), 2U) << "the twin has the ball's map";

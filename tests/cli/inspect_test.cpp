@@ -21,7 +21,10 @@ protected:
     void SetUp() override {
         ASSERT_EQ(run_spa({"sample", "torus", "--level", "2", "-o", "torus.glb"}, folder_.path()).exit_code,
                   0);
-        ASSERT_EQ(run_spa({"bake", "torus.glb", "-o", "torus.spa", "--size", "64"}, folder_.path()).exit_code,
+        ASSERT_EQ(run_spa({"bake", "torus.glb", "-o", "torus.spa", "--size", "64", "--center", "bounds",
+                           "--frame", "sphere"},
+                          folder_.path())
+                      .exit_code,
                   0);
     }
 

@@ -13,9 +13,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-Outcome run_plan(const TemporaryFolder& folder, std::vector<std::string> more) {
-    std::vector<std::string> arguments{"plan", "scene.glb",      "-o", "plan.json", "--rays",
-                                       "8192", "--largest-size", "128"};
+Outcome run_plan(const TemporaryFolder& folder, const std::vector<std::string>& more,
+                 const std::string& rays = "4096") {
+    std::vector<std::string> arguments{"plan", "scene.glb", "-o", "plan.json", "--rays", rays};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_spa(arguments, folder.path());
 }
@@ -27,7 +27,7 @@ void make_scene(const TemporaryFolder& folder, const std::string& name, const st
 
 TEST(PlanVerb, WritesAPlanByItsSchema) {
     const TemporaryFolder folder;
-    make_scene(folder, "room", "1");
+    make_scene(folder, "room", "0");
     const Outcome outcome = run_plan(folder, {"--format", "json", "--camera", "view"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const Json report = Json::parse(outcome.out);
@@ -126,7 +126,7 @@ TEST_F(RenderPredicted, PredictsWhatARenderedPictureLoses) {
         return run_spa(arguments, folder.path());
     };
     ASSERT_EQ(render({"--reference", "-o", "truth.exr"}).exit_code, 0);
-    ASSERT_EQ(run_plan(folder, {"--target-image-error", "1e-3", "--rays", "65536"}).exit_code, 0);
+    ASSERT_EQ(run_plan(folder, {"--target-image-error", "1e-3"}, "65536").exit_code, 0);
     const Json plan = Json::parse(read_file(folder.path() / "plan.json"));
     for (const Json& object : plan["objects"]) {
         if (object["name"] != "boot") continue;

@@ -71,9 +71,10 @@ TEST_F(ReportVerb, SaysOfAMapWhatOtherVerbsSay) {
     EXPECT_GT(map["speed"]["map"]["ns"], 0.0);
     EXPECT_GT(map["speed"]["triangles"]["ns"], 0.0);
 
-    const Outcome inspected = run_spa({"inspect", "maps/torus.spa", "--format", "json"}, folder_.path());
+    const Outcome outcome = run_spa({"inspect", "maps/torus.spa", "--format", "json"}, folder_.path());
+    const json inspected = json::parse(outcome.out);
     std::map<std::string, std::uint64_t> stored, reported;
-    for (const json& section : json::parse(inspected.out)["sections"])
+    for (const json& section : inspected["sections"])
         stored[section["type"]] += section["stored_bytes"].get<std::uint64_t>();
     for (const json& section : map["sections"])
         reported[section["type"]] += section["stored_bytes"].get<std::uint64_t>();

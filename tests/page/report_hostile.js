@@ -111,7 +111,7 @@ probe.run(async () => {
     // ---- Cells, order, filter ----
     const cells = (name) => all('tr.row > td', body(name)).map((cell) => cell.innerText.replaceAll('\u202f', ' '));
     equal('headers', all('#maps > thead th').map((cell) => cell.textContent), ['Map', 'Size × layers', 'Parts', 'Bytes', 'Triangles',
-        'Ray: map', 'Ray: triangles', 'Faster', 'False hits', 'Missed hits', 'Mean Δt', 'Hausdorff', 'Not captured', 'Notes']);
+        'Ray: map', 'Ray: triangles', 'Speedup', 'False hits', 'Missed hits', 'Mean Δt', 'Hausdorff', 'Not captured', 'Notes']);
     equal('cells', cells(sources[0]).slice(2), ['128 × 2', '1', '29.3 KiB', '1 000', '80.0 ns', '160 ns', '2.00 ×', '0.030 %',
         '0.060 %', '0.003 R', '0.06 R', '0.15 %', '2 warnings']);
     equal('cells of what was not read', cells(sources[3]).slice(2), ['', '', '', '', '', '', '', '', '', '', '', '', 'not read']);

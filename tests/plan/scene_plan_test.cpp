@@ -17,7 +17,7 @@ PlanOptions small_options() {
     options.paths.width = 320;
     options.paths.height = 180;
     options.paths.samples = 16;
-    options.paths.most_rays = 8192;
+    options.paths.most_rays = 4096;
     options.largest_size = 128;
     return options;
 }

@@ -169,6 +169,24 @@ TEST(Search, BestIsTheNearestToTheTarget) {
     for (const Tried& tried : result.tried) EXPECT_GE(tried.error.value, 0.9 * result.error);
 }
 
+TEST(Search, ColorsTakeNoMoreThanHalfOfTheBytes) {
+    Model model = torus();
+    test::add_random_texture(model, 32, 3);
+    for (std::size_t i = 0; i < model.uvs.size(); ++i)
+        model.uvs[i] = {model.positions[i].x * 0.3F + 0.5F, model.positions[i].z * 0.3F + 0.5F};
+    SearchRequest request = request_of(Metric::p95_dt, 0.1);
+    request.color_cells = {16, 32, 64, 128, 256};
+    const SearchResult free = search(model, request);
+    ASSERT_TRUE(free.met);
+    EXPECT_GE(free.chosen->color_cells, 64U);
+    request.max_bytes = 20'000;
+    const SearchResult limited = search(model, request);
+    ASSERT_TRUE(limited.met);
+    EXPECT_LE(limited.bytes, 20'000U);
+    EXPECT_GT(free.bytes, 20'000U);
+    EXPECT_LT(limited.chosen->color_cells, free.chosen->color_cells);
+}
+
 TEST(Search, RefusesWhatCannotBeMeasured) {
     SearchRequest request = request_of(Metric::p95_dt, 0.1);
     request.options.grid.mapping = Mapping::latlong;

@@ -3,6 +3,9 @@
 # the version that npm/package-lock.json pins: sh tools/setup.sh build. Without it the verb is not built.
 find_path(SPA_NODE_MODULES chart.js/dist/chart.umd.min.js PATHS ${PROJECT_SOURCE_DIR}/build/npm/node_modules
   NO_DEFAULT_PATH DOC "Folder node_modules that has chart.js, for the page of spa report")
+if(SPA_NODE_MODULES AND NOT EXISTS ${SPA_NODE_MODULES}/chart.js/dist/chart.umd.min.js)
+  message(FATAL_ERROR "SPA_NODE_MODULES is ${SPA_NODE_MODULES}, where chart.js/dist/chart.umd.min.js is not")
+endif()
 if(SPA_NODE_MODULES)
   set(SPA_CHART_JS ${SPA_NODE_MODULES}/chart.js/dist/chart.umd.min.js)
   set(chart_js_licenses ${SPA_NODE_MODULES}/chart.js/LICENSE.md ${SPA_NODE_MODULES}/@kurkle/color/LICENSE.md)

@@ -49,7 +49,7 @@
         number('triangles', 'Triangles', 'Of the source', ({ map }) => map.source?.triangles ?? null, (n) => [group(n), '']),
         number('map_ns', 'Ray: map', 'Time of a ray through the map, one thread', nsOf('map'), inNs),
         number('triangles_ns', 'Ray: triangles', 'Time of a ray through the source’s triangles, one thread', nsOf('triangles'), inNs),
-        number('times', 'Faster', 'Time through the triangles divided by that through the map', times, (n) => [n.toFixed(2), '×']),
+        number('times', 'Speedup', 'Time through the triangles divided by that through the map', times, (n) => [n.toFixed(2), '×']),
         errorColumn('false_hits', 'False hits', 'Rays that hit the map and not the source', percent(3)),
         errorColumn('missed_hits', 'Missed hits', 'Rays that hit the source and not the map', percent(3)),
         errorColumn('mean_distance', 'Mean Δt', 'Mean distance between the hits of a ray, in R', inR),
