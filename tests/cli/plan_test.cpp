@@ -133,7 +133,8 @@ TEST_F(RenderPredicted, PredictsWhatARenderedPictureLoses) {
         ASSERT_EQ(object["decision"], "map");
         ASSERT_EQ(run_spa({"sample", "boot", "--level", "2", "-o", "boot.glb"}, folder.path()).exit_code, 0);
         ASSERT_EQ(run_spa({"bake", "boot.glb", "-o", "boot.spa", "--size", object["settings"]["size"],
-                           "--layers", std::to_string(object["settings"]["layers"].get<int>()), "--quiet"},
+                           "--layers", std::to_string(object["settings"]["layers"].get<int>()), "--center",
+                           object["settings"]["center"], "--frame", object["settings"]["frame"], "--quiet"},
                           folder.path())
                       .exit_code,
                   0);

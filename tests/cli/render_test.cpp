@@ -372,6 +372,8 @@ INSTANTIATE_TEST_SUITE_P(
                     bad({"--frames", "8"}, "no ray meets a map"),
                     bad({"--frames", "8", "--map", "a.spa", "--time", "1"}, "exclude each other"),
                     bad({"--frames", "8", "--map", "a.spa", "--compare", "a.exr"}, "exclude each other"),
+                    bad({"--plan", "p.json", "--time", "1"}, "for the scene at rest"),
+                    bad({"--plan", "p.json", "--frames", "8"}, "for the scene at rest"),
                     bad({"--primary", "both"}, "is not one of triangles, maps"),
                     bad({"--method", "sphere", "--test-rays", "1"}, "sphere has none"),
                     bad({"--test-rays", "1"}, "projective has none"),

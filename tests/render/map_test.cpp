@@ -157,6 +157,32 @@ TEST_F(Maps, ArePosedAsIfTheyWereLoadedSo) {
     EXPECT_THROW(posed->pose(*gpu, scene, std::span(&wrong, 1)), Error);
 }
 
+// Two placements share a map, one node is dropped between them: each moves by its own place.
+TEST_F(Maps, ArePosedWhereTheyShareOne) {
+    make("torus", 32, 1);
+    settings.samples = 2;
+    const std::uint32_t gone = add_node(scene, "gone", scene.nodes[object].to_world);
+    const std::uint32_t twin = add_node(scene, "twin", scene.nodes[object].to_world);
+    std::vector<render::MapPlacement> placements(3);
+    placements[0].node = gone;
+    placements[0].dropped = true;
+    placements[1].node = object;
+    placements[2].node = twin;
+    placements[1].map = placements[2].map = &baked.map.map;
+    render::DeviceScene posed(*gpu, scene, placements, true);
+    scene.nodes[object].to_world.translation = Vec3d{-0.5, -0.2, 0.1};
+    scene.nodes[twin].to_world.translation = Vec3d{0.5, 0.2, 0};
+    const render::DeviceScene loaded(*gpu, scene, placements, true);
+    EXPECT_EQ(posed.memory().maps, loaded.memory().maps);
+    EXPECT_NE(frame(posed, Geometry::maps, Geometry::maps).depth,
+              frame(loaded, Geometry::maps, Geometry::maps).depth);
+    posed.pose(*gpu, scene, placements);
+    const Frame a = frame(posed, Geometry::maps, Geometry::maps),
+                b = frame(loaded, Geometry::maps, Geometry::maps);
+    EXPECT_EQ(a.depth, b.depth);
+    EXPECT_EQ(a.indirect, b.indirect);
+}
+
 // A ball with a transparent band, so that light falls through it and its inside is seen.
 TEST_F(Maps, HaveHolesWhereTheyAreAskedFor) {
     Model ball = empty_model();
