@@ -97,7 +97,8 @@ void Trials::add(const ObjectGroup& group, const Model& model, std::uint32_t siz
     }
     trial.deviation = std::sqrt(variance);
     if (shape != nullptr) {
-        shape->captured = std::min(1.0, bake::SurfaceViews(bake::coarse_model(model), 1).from({map.part().center, {}}).captured);
+        shape->captured = std::min(
+            1.0, bake::SurfaceViews(bake::coarse_model(model), 1).from({map.part().center, {}}).captured);
         shape->star_shaped = is_star(map.baked.report);
     }
     const auto after = std::find_if(series.trials.begin(), series.trials.end(),
