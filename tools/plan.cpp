@@ -117,7 +117,7 @@ Verb plan_verb() {
             "decided how, and how far it held, is in docs/planning.md.",
         .examples = "$ spa sample room -o room.glb\n"
                     "$ spa plan room.glb -o room.json\n"
-                    "$ spa plan room.glb -o room.json --target-image-error 0.0001 --html room.html\n"
+                    "$ spa plan room.glb -o room.json --views 4 --html room.html\n"
                     "$ spa plan room.glb -o room.json --budget-bytes 2000000",
         .see_also = "spa batch, spa render, spa bake",
         .define = [](CLI::App& app) -> std::function<void()> {

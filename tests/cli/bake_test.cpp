@@ -51,11 +51,11 @@ TEST_F(BakeVerb, ReportFollowsItsSchema) {
 }
 
 TEST_F(BakeVerb, DefaultsAreTheDocumentedOnes) {
-    const json expected = {{"mapping", "octahedral"}, {"size", "256"},      {"color_size", "256"},
-                           {"depth", "u16"},          {"normals", "oct16"}, {"layers", 2},
-                           {"folds", "on"},           {"frame", "auto"},    {"center", "auto"},
-                           {"baker", "radial"},       {"gl", "auto"},       {"samples", 1},
-                           {"compress", "zstd"},      {"measure", false}};
+    const json expected = {
+        {"mapping", "octahedral"}, {"size", "256"},     {"color_size", "256"}, {"depth", "u16"},
+        {"normals", "oct16"},      {"layers", 2},       {"folds", "on"},       {"frame", "auto"},
+        {"center", "auto"},        {"baker", "radial"}, {"gl", "auto"},        {"samples", 1},
+        {"compress", "zstd"},      {"measure", false},  {"parts", "whole"},    {"max_parts", 64}};
     EXPECT_EQ(bake("boot.spa")["options"], expected);
     const container::File opened = open("boot.spa");
     const Surface& outer = opened.map().parts.at(0).layers.at(0).outer;
