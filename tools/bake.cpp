@@ -26,7 +26,8 @@ nlohmann::ordered_json output_json(const BakeArguments& arguments, const std::ve
 void bake_asset(const BakeArguments& arguments) {
     const BakedFile baked = bake_file(arguments);
     const BakeFacts facts = baked.facts(arguments);
-    if (!baked.source.node_warning.empty()) std::cerr << "spa: warning: " << baked.source.node_warning << '\n';
+    if (!baked.source.node_warning.empty())
+        std::cerr << "spa: warning: " << baked.source.node_warning << '\n';
     for (const std::string& warning : warnings(facts)) std::cerr << "spa: warning: " << warning << '\n';
     print(arguments.format == ReportFormat::json
               ? json_text(report_json(facts, output_json(arguments, baked.bytes), baked.seconds))
