@@ -37,9 +37,9 @@ Partition divide_by_nodes(const Scene& scene, std::uint32_t max_parts);
 
 // What follows each joint of a skin, or where there is none, each node. A triangle belongs to the bone with
 // the largest weight, summed over its corners, and to every other that has at least `shared_weight` of any
-// corner: where the surface bends both neighbours have it, so that no gap opens between them. scene.rig is
+// corner: the triangles of a seam are on both sides of it, so that no gap opens between them. scene.rig is
 // not empty. Throws as divide_by_nodes. O(influences).
-constexpr float shared_weight = 0.25F;
+constexpr float shared_weight = 0.6F;
 Partition divide_by_bones(const Scene& scene, std::uint32_t max_parts);
 
 // Adds to every piece the triangles of other pieces that share a welded vertex with it: the cracks that
