@@ -122,8 +122,8 @@ TEST(Partition, BonesShareWhereTheSurfaceBends) {
     EXPECT_EQ(partition[0].joint, 0);
     EXPECT_EQ(partition[1].joint, 1);
     EXPECT_EQ(partition[1].node, 4);
-    // The corners at x = 0.5 have 0.7 of their weight from the upper bone, those at 0.6 have 0.8 from the lower
-    // one: what lies between is shared.
+    // The corners at x = 0.5 have 0.7 of their weight from the upper bone, those at 0.6 have 0.8 from the
+    // lower one: what lies between is shared.
     std::vector<std::uint32_t> shared;
     std::set_intersection(partition[0].triangles.begin(), partition[0].triangles.end(),
                           partition[1].triangles.begin(), partition[1].triangles.end(),
