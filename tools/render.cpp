@@ -61,17 +61,17 @@ void check_outputs(const RenderArguments& arguments, const import::Report& sourc
     }
 }
 
-void list_devices(const RenderArguments& arguments) {
-    const std::vector<render::DeviceEntry> devices = render::list_devices();
-    print(arguments.format == ReportFormat::json ? json_text(devices_json(devices)) : devices_text(devices));
-}
-
 render::GpuOptions gpu_options(const RenderArguments& arguments) {
     render::GpuOptions options;
     options.device = arguments.device;
     options.tracing.pipelines = arguments.settings.backend == render::Backend::pipeline;
     options.tracing.queries = arguments.settings.backend == render::Backend::query;
     return options;
+}
+
+void list_devices(const RenderArguments& arguments) {
+    const std::vector<render::DeviceEntry> devices = render::list_devices(gpu_options(arguments).tracing);
+    print(arguments.format == ReportFormat::json ? json_text(devices_json(devices)) : devices_text(devices));
 }
 
 spa::import::SceneResult read_scene(const RenderArguments& arguments) {

@@ -8,6 +8,8 @@ namespace {
 
 constexpr double first_rays = 16384;
 constexpr double most_rays = 1U << 30U;
+// What keeps a GPU busy. Samples of a pixel follow each other in one thread, so pixels go before samples.
+constexpr double enough_pixels = 1U << 20U;
 
 } // namespace
 
@@ -57,8 +59,8 @@ std::optional<Batch> Batches::next() {
     const double rays = budget_[std::size_t(batch.pass)];
     if (batch.first_sample == first_sample_) {
         // Whole workgroups of rows; at the end of the picture what is left.
-        const double rows =
-            std::clamp(rays / (double(width_) * samples), double(SPA_GROUP_SIZE), double(height_));
+        const double pixels = std::max(rays / samples, std::min(rays, enough_pixels));
+        const double rows = std::clamp(pixels / width_, double(SPA_GROUP_SIZE), double(height_));
         const std::uint32_t whole = std::uint32_t(rows) / SPA_GROUP_SIZE * SPA_GROUP_SIZE;
         batch.end_row = batch.first_row +
                         std::min(std::max(whole, std::uint32_t(SPA_GROUP_SIZE)), height_ - batch.first_row);
@@ -76,6 +78,9 @@ void Batches::took(double seconds) {
     double& budget = budget_[std::size_t(last_.pass)];
     const double better = double(rays) * seconds_ / std::max(seconds, 1e-4);
     budget = std::clamp(better, std::max(budget / 4, 64.0), std::min(budget * 4, most_rays));
+    // A first guess of what secondary rays cost.
+    if (last_.pass == Pass::secondary) secondary_ = true;
+    if (!secondary_) budget_[std::size_t(Pass::secondary)] = std::max(first_rays, budget / 4);
 }
 
 } // namespace spa::render

@@ -47,6 +47,7 @@ private:
     double seconds_;
     Batch last_;
     bool begun_ = false;
+    bool secondary_ = false;         // some were traced
     std::uint64_t done_ = 0, total_; // rays
     double budget_[2];               // rays a batch of a pass
 };

@@ -200,11 +200,10 @@ std::size_t choose_device(const std::vector<DeviceEntry>& entries, std::string_v
     return *named;
 }
 
-std::vector<DeviceEntry> list_devices() {
+std::vector<DeviceEntry> list_devices(vulkan::Tracing tracing) {
     const Instance instance(nullptr);
     std::vector<DeviceEntry> entries;
-    for (FoundDevice& device : find_devices(instance, GpuOptions{}.tracing))
-        entries.push_back(std::move(device.entry));
+    for (FoundDevice& device : find_devices(instance, tracing)) entries.push_back(std::move(device.entry));
     return entries;
 }
 

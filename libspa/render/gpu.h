@@ -18,9 +18,9 @@ struct DeviceEntry {
     bool software = false;
 };
 
-// Every Vulkan device here, in the order of the Vulkan loader; the index is what chooses one. Throws
-// Error{unsupported} if there is no Vulkan at all.
-std::vector<DeviceEntry> list_devices();
+// Every Vulkan device here, in the order of the Vulkan loader; the index is what chooses one. `missing` is
+// for these ways to trace. Throws Error{unsupported} if there is no Vulkan at all.
+std::vector<DeviceEntry> list_devices(vulkan::Tracing tracing);
 
 struct GpuOptions {
     // An index of list_devices(), or a part of a device's name (any case). Empty: the first that is not

@@ -41,6 +41,12 @@ protected:
         return {*device, *loader, SPA_GPU_SHADERS};
     }
 
+    // What the device traces by.
+    [[nodiscard]] std::vector<Backend> backends() const {
+        if (!tracing().queries) return {Backend::pipeline};
+        return {Backend::query, Backend::pipeline};
+    }
+
     std::unique_ptr<vulkan::Device> loader;
 };
 
@@ -164,7 +170,7 @@ TEST_P(LoadedMaps, AreHitAsOnTheCpu) {
     scene.load(rig(), options);
     ASSERT_EQ(scene.records().size(), 7U);
     const std::vector<WorldRay> rays = world_rays(given.rays, 1);
-    for (const Backend backend : {Backend::query, Backend::pipeline}) {
+    for (const Backend backend : backends()) {
         const std::vector<WorldHit> hits =
             trace_maps(rig(), backend, scene.instances(), scene.records(), given.constants, false, rays);
         const Disagreement found = compare(scene, rays, hits, given.constants);
@@ -201,7 +207,7 @@ TEST_F(Loader, CoverageLetsRaysThrough) {
     scene.load(rig(), options);
     for (const vulkan::ShaderRecord& record : scene.records()) EXPECT_EQ(record.flags, SPA_RECORD_COVERAGE);
     const std::vector<WorldRay> rays = world_rays(1U << 16, 2);
-    for (const Backend backend : {Backend::query, Backend::pipeline}) {
+    for (const Backend backend : backends()) {
         const std::vector<WorldHit> hits =
             trace_maps(rig(), backend, scene.instances(), scene.records(), constants, true, rays);
         const Disagreement found = compare(scene, rays, hits, constants);
@@ -223,7 +229,7 @@ TEST_F(Loader, RecordFlagsCull) {
     scene.place({0, {}, SPA_CULL_FRONT});
     scene.load(rig(), {});
     const std::vector<WorldRay> rays = world_rays(1U << 14, 3);
-    for (const Backend backend : {Backend::query, Backend::pipeline}) {
+    for (const Backend backend : backends()) {
         const std::vector<WorldHit> hits =
             trace_maps(rig(), backend, scene.instances(), scene.records(), constants, false, rays);
         const Disagreement found = compare(scene, rays, hits, constants);
@@ -305,7 +311,7 @@ TEST_F(Loader, NamesWhatADeviceLacks) {
     const auto missing = [&](vulkan::Tracing tracing) {
         return vulkan::missing(vkGetInstanceProcAddr, device->instance(), device->physical_device(), tracing);
     };
-    EXPECT_EQ(missing({true, true}), "");
+    EXPECT_EQ(missing(tracing()), "");
     // A device created without the extensions has no such functions.
     ValidationLog log;
     const VulkanDevice plain(log, {});
