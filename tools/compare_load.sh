@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# compare_load.sh BUILD_DIR ASSET [RUNS]: times `spa bake ASSET` as a whole process against one that only loads
+# compare_load.sh BUILD_DIR ASSET [RUNS]: times `spa bake ASSET` (plain centre and frame) as a whole process against one that only loads
 # the asset (tests/bake/load_reference.cpp), in turns, and prints both medians and their ratio.
 set -eu
 if [ $# -lt 2 ]; then
@@ -31,7 +31,8 @@ run=0
 while [ "$run" -lt "$runs" ]; do
     milliseconds "$folder/load" "$build/tests/bake/load_reference" "$asset"
     for layers in 1 2; do
-        milliseconds "$folder/bake-$layers" "$build/tools/spa" bake "$asset" -o "$folder/a.spa" --layers $layers -q
+        milliseconds "$folder/bake-$layers" "$build/tools/spa" bake "$asset" -o "$folder/a.spa" --layers $layers \
+            --center bounds --frame sphere -q
     done
     run=$((run + 1))
 done
