@@ -46,7 +46,7 @@ struct MapSettings {
 
 struct Expected {
     std::uint64_t bytes = 0; // of memory while rendering; 0 where another object pays for the map
-    double nanoseconds = 0;  // of a ray on one core
+    double nanoseconds = 0;  // of a random chord on one core
     double error = 0;        // 95th percentile of |dt| of the rays of this scene, in the object's radius
     double image_error = 0;  // its share of that of the picture
 };
