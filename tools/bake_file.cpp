@@ -93,10 +93,9 @@ std::vector<Part> without_images(const std::vector<Part>& parts) {
 
 // Leaves what it found in `baked`.
 bake::PartsResult search_map(const BakeArguments& arguments, BakedFile& baked) {
-    baked.search = search_with_progress(arguments, baked.source.asset.model);
+    baked.search = search_with_progress(arguments, baked.source);
     baked.measurement = std::move(baked.search->measurement);
-    bake::Result found = std::exchange(baked.search->baked, {});
-    return {std::move(found.map), {std::move(found.report)}};
+    return std::exchange(baked.search->baked, {});
 }
 
 std::vector<std::byte> encode(const SphericalMap& map, const BakeArguments& arguments) {
@@ -148,7 +147,6 @@ BakedFile bake_file(const BakeArguments& arguments) {
     SphericalMap& map = result.map.map;
     if (arguments.settings.measure && !baked.measurement)
         baked.measurement = measure_with_progress(arguments, baked.source, map.parts);
-    if (baked.search) map.parts.front().errors = measure::error_figures(*baked.measurement);
     baked.parts = without_images(map.parts);
     map.metadata = metadata(baked.facts(arguments));
     baked.bytes = encode(map, arguments);

@@ -117,10 +117,6 @@ BakeSettings complete(const Given& given) {
                                        given.frame.has_value(), given.center.has_value()},
                                       options);
     if (settings.search) {
-        if (settings.parts != PartsKind::whole)
-            throw Error(ExitCode::usage,
-                        std::string("--parts ") + name(settings.parts) +
-                            ": a search for a target is over maps of one part; leave out one of the two");
         settings.search->compress = settings.compress;
         settings.measure = true;
     }

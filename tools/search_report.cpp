@@ -127,7 +127,7 @@ std::string unmet_text(const BakeSettings& settings, const SearchResult& search)
     case plan::Limit::shape:
         return text +
                "; more samples stopped helping: some surface is in no layer, or hidden from the centre "
-               "(star error); allow more --layers or a larger error";
+               "(star error); allow more --layers, --parts auto or a larger error";
     case plan::Limit::max_bytes: return text + "; --max-bytes stopped it; allow more bytes or a larger error";
     default:
         return text + "; more samples would help, but " +

@@ -256,14 +256,16 @@ private:
         const auto start = Clock::now();
         result_.chosen = candidate;
         const bake::Options options = options_of(candidate, request_.options);
-        result_.baked = bake::bake_model(model_, options, progress_between(0.7, 0.8));
-        const SphericalMap& map = result_.baked.map.map;
+        bake::Result baked = bake::bake_model(model_, options, progress_between(0.7, 0.8));
+        result_.baked = {std::move(baked.map), {std::move(baked.report)}};
+        SphericalMap& map = result_.baked.map.map;
         measure::MeasureOptions measure = request_.measure;
         measure.color_samples = options.samples;
         measure.layers = options.layers;
         measure.threads = options.threads;
         result_.measurement =
             measure::measure_map(model_, map.parts.front(), measure, progress_between(0.8, 1));
+        map.parts.front().errors = measure::error_figures(result_.measurement);
         result_.bytes = file_bytes(map, request_.compress) + request_.other_bytes;
         result_.error = figure_of(request_.metric, result_.measurement) *
                         (is_share(request_.metric) ? 1 : place_->radius() / unit_);

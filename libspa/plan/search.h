@@ -7,7 +7,7 @@
 #include "estimate.h"
 #include "metric.h"
 
-#include "../bake/bake.h"
+#include "../bake/bake_parts.h"
 #include "../measure/measure_map.h"
 
 #include <cstdint>
@@ -72,10 +72,10 @@ struct SearchResult {
     bool met = false;
     Limit stopped_by = Limit::none;
     // Of the chosen one, baked in full and measured as MeasureOptions of `spa bake --measure` say:
-    bake::Result baked;
-    measure::Measurement measurement;
-    double error = 0;          // the metric, in the unit of the target
-    std::uint64_t bytes = 0;   // of the file, encoded, with other_bytes
+    bake::PartsResult baked;          // the parts with their error figures
+    measure::Measurement measurement; // of the whole
+    double error = 0;                 // the metric, in the unit of the target
+    std::uint64_t bytes = 0;          // of the file, encoded, with other_bytes
     std::uint32_t refused = 0; // candidates that met the target by the search's samples and not by this
     double search_seconds = 0; // without the two of the last bake and its measurement
     double final_seconds = 0;

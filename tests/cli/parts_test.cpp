@@ -73,6 +73,31 @@ TEST_F(BakeParts, ValidateMeasuresEveryPart) {
     }
 }
 
+TEST_F(BakeParts, ATargetIsSearchedOverSizes) {
+    Arguments arguments{"bake", "scene.glb",       "-o",          "t.spa",    "--parts", "components",
+                        "-q",   "--target-metric", "missed-hits", "--format", "json",    "--target-error"};
+    arguments.emplace_back("0.01");
+    const Outcome outcome = run(arguments);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json report = json::parse(outcome.out);
+    EXPECT_EQ(schema_error(load_schema("bake"), report), "");
+    const json& search = report["search"];
+    EXPECT_EQ(search["met"], true);
+    EXPECT_GT(report["report"]["parts"].size(), 1U);
+    EXPECT_EQ(search["chosen"]["size"], report["options"]["size"]);
+    EXPECT_LE(report["figures"]["rays"]["missed_hits"]["share"], 0.01);
+    for (std::size_t i = 0; i + 1 < search["tried"].size(); ++i)
+        EXPECT_EQ(search["tried"][i]["met"], false) << "the smallest is taken";
+    EXPECT_EQ(run({"validate", "t.spa", "--max-missed-hits", "0.01"}).exit_code, 0);
+
+    arguments.back() = "1e-9";
+    arguments.insert(arguments.end(), {"--max-bytes", "20K"});
+    arguments[3] = "none.spa";
+    const Outcome unmet = run(arguments);
+    EXPECT_EQ(unmet.exit_code, 6) << unmet.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "none.spa"));
+}
+
 TEST_F(BakeParts, AtMostSoMany) {
     EXPECT_EQ(bake("components", {"--max-parts", "2"})["report"]["parts"].size(), 2U);
     const Outcome outcome =
@@ -83,10 +108,8 @@ TEST_F(BakeParts, AtMostSoMany) {
 }
 
 TEST_F(BakeParts, WhatDoesNotGoTogetherIsRefused) {
-    for (const Arguments& more : std::vector<Arguments>{{"--parts", "nodes", "--node", "ball"},
-                                                        {"--parts", "auto", "--target-error", "0.1"},
-                                                        {"--parts", "pieces"},
-                                                        {"--max-parts", "0"}}) {
+    for (const Arguments& more : std::vector<Arguments>{
+             {"--parts", "nodes", "--node", "ball"}, {"--parts", "pieces"}, {"--max-parts", "0"}}) {
         Arguments arguments{"bake", "scene.glb", "-o", "x.spa", "-q"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         EXPECT_EQ(run(arguments).exit_code, 1) << more[1];
