@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -153,10 +154,11 @@ private:
         const auto of_model = [&](const Model& model) {
             const double radius = radius_about(model, part.center, part.frame);
             const double count = double(parts_.size());
-            return star_map(model, part, radius, options_.layers, options_.star_cells, options_.threads,
-                            [&](double share) {
-                                return !progress_ || progress_(0.6 + 0.4 * (double(i) + share) / count);
-                            });
+            // As many samples in all as one part has.
+            const auto cells = 2 * std::uint32_t(std::ceil(options_.star_cells / (2 * std::sqrt(count))));
+            return star_map(model, part, radius, options_.layers, cells, options_.threads, [&](double share) {
+                return !progress_ || progress_(0.6 + 0.4 * (double(i) + share) / count);
+            });
         };
         return partition_ == nullptr ? of_model(model_)
                                      : of_model(piece_model(model_, (*partition_)[i].triangles));

@@ -18,7 +18,8 @@ namespace spa::measure {
 struct RayOptions {
     std::uint32_t rays = 100'000;    // in all
     std::uint32_t layers = 0;        // as MeasureOptions::layers
-    std::uint32_t star_cells = 1024; // of the map that E_star is judged by; even
+    std::uint32_t star_cells = 1024; // of the map that E_star is judged by, even; of
+                                     // several parts that of each is coarser
     unsigned threads = 0;            // 0 = all cores; the result does not depend on it
 };
 

@@ -58,7 +58,7 @@ TEST_F(BakeParts, OfWhatNoSkinMovesBonesAreNodes) {
 }
 
 TEST_F(BakeParts, ValidateMeasuresEveryPart) {
-    for (const char* const parts : {"components", "nodes", "auto"}) {
+    for (const char* const parts : {"nodes", "auto"}) {
         const json report = bake(parts, {"--measure"});
         const std::string file = std::string(parts) + ".spa";
         const Outcome outcome = run({"validate", file, "--rays", "3000", "--format", "json", "--min-captured",
