@@ -3,7 +3,7 @@
 
 #include "../core/error.h"
 
-#include <cstring>
+#include <algorithm>
 #include <string>
 
 namespace spa::trace {
@@ -36,8 +36,8 @@ void attach_triangles(RTCDevice device, RTCScene scene, std::span<const Vec3f> p
     void* const indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                   sizeof(Triangle), triangles.size());
     check(device);
-    std::memcpy(vertices, positions.data(), positions.size_bytes());
-    std::memcpy(indices, triangles.data(), triangles.size_bytes());
+    std::copy(positions.begin(), positions.end(), static_cast<Vec3f*>(vertices));
+    std::copy(triangles.begin(), triangles.end(), static_cast<Triangle*>(indices));
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene, geometry.get());
     check(device);
