@@ -259,6 +259,7 @@ Model piece_model(const Model& whole, std::span<const std::uint32_t> triangles) 
     for (std::uint32_t& m : piece.triangle_materials) m = materials.place[m];
     piece.materials = picked(whole.materials, materials.numbers);
     std::vector<std::uint32_t> used;
+    used.reserve(piece.materials.size());
     for (const Material& material : piece.materials) used.push_back(material.texture);
     const Used textures(whole.textures.size(), used);
     for (Material& material : piece.materials)

@@ -12,6 +12,7 @@ namespace {
 
 std::vector<SizedValue> values_of(const std::vector<Trial>& trials, double (*value)(const Trial&)) {
     std::vector<SizedValue> values;
+    values.reserve(trials.size());
     for (const Trial& trial : trials) values.push_back({trial.size, value(trial)});
     return values;
 }
