@@ -6,6 +6,7 @@
 
 #include "../mesh/components.h"
 #include "../mesh/part_frame.h"
+#include "../mesh/piece_model.h"
 
 #include <algorithm>
 #include <array>

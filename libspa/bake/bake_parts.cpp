@@ -2,6 +2,7 @@
 #include "bake_parts.h"
 
 #include "../core/error.h"
+#include "../mesh/piece_model.h"
 
 #include <algorithm>
 #include <iterator>

@@ -4,6 +4,8 @@
 
 #include "vector.h"
 
+#include <cmath>
+
 namespace spa {
 
 // p -> linear * p + translation. The default is the identity.
@@ -27,6 +29,14 @@ inline bool is_finite(const Affine& map) {
 // First b, then a.
 constexpr Affine operator*(const Affine& a, const Affine& b) {
     return {a.linear * b.linear, transform_point(a, b.translation)};
+}
+
+// Whether inverse() makes sense: finite, and the axes not closer to a plane than the container allows a
+// frame's to be (formats/SPA.md, section 5).
+inline bool has_inverse(const Affine& map) {
+    const Mat3& m = map.linear;
+    const double lengths = length(m.row[0]) * length(m.row[1]) * length(m.row[2]);
+    return is_finite(map) && lengths > 0 && std::abs(determinant(m)) > 1e-12 * lengths;
 }
 
 // The caller makes sure that the determinant of the linear part is not zero.

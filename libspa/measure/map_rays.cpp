@@ -10,6 +10,7 @@
 #include "../bake/center.h"
 #include "../core/error.h"
 #include "../mesh/part_frame.h"
+#include "../mesh/piece_model.h"
 #include "../trace/scene.h"
 #include "../trace/triangle_scene.h"
 

@@ -4,6 +4,7 @@
 #include "source_radius.h"
 
 #include "../mesh/part_frame.h"
+#include "../mesh/piece_model.h"
 
 #include <algorithm>
 #include <cmath>

@@ -26,9 +26,6 @@ Across across(Vec3f direction) {
     return {to_float(first), to_float(cross(d, first))};
 }
 
-namespace {
-
-// Where the ray meets the triangle's plane, as weights of its corners, brought into the triangle.
 Vec3d barycentric_of(const bake::CenteredModel& model, std::uint32_t triangle, Vec3d point) {
     const auto& v = model.model->triangles[triangle].vertex;
     const Vec3d a = to_double(model.positions[v[0]]);
@@ -43,8 +40,6 @@ Vec3d barycentric_of(const bake::CenteredModel& model, std::uint32_t triangle, V
     const double sum = std::max(1.0, y + z);
     return {1 - (y + z) / sum, y / sum, z / sum};
 }
-
-} // namespace
 
 bool RayTruth::find(const trace::Ray& ray, Found& found) const {
     // Embree's rays start at 0 here; those of no sense it reports as misses.

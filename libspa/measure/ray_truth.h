@@ -42,6 +42,10 @@ private:
     bake::Shader shader_;
 };
 
+// Where a point lies in a triangle's plane, in the space of model.positions: weights of its corners, brought
+// into the triangle.
+Vec3d barycentric_of(const bake::CenteredModel& model, std::uint32_t triangle, Vec3d point);
+
 // Two unit vectors across `direction` (any length > 0) and each other.
 struct Across {
     Vec3f first, second;

@@ -7,7 +7,6 @@
 #include "../core/error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -95,8 +94,7 @@ Partition follow_nodes(const Scene& scene, const std::vector<std::uint32_t>& nod
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (triangles[i].empty()) continue;
         const SceneNode& node = scene.nodes[nodes[i]];
-        const double volume = determinant(node.to_world.linear);
-        if (volume == 0 || !std::isfinite(1 / volume))
+        if (!has_inverse(node.to_world))
             throw Error(ExitCode::unsupported, "node '" + node.name +
                                                    "' has a transform without inverse, which no part can "
                                                    "follow; use --parts components");
@@ -125,30 +123,6 @@ std::map<std::uint32_t, BoneShare> bones_of(const Rig& rig, const Triangle& tria
     }
     return shares;
 }
-
-template <class T>
-std::vector<T> picked(const std::vector<T>& values, std::span<const std::uint32_t> from) {
-    std::vector<T> out;
-    if (values.empty()) return out;
-    out.reserve(from.size());
-    for (const std::uint32_t i : from) out.push_back(values[i]);
-    return out;
-}
-
-// The numbers that occur, ascending; and for each number its place among them.
-struct Used {
-    std::vector<std::uint32_t> numbers, place;
-
-    Used(std::size_t count, std::span<const std::uint32_t> all) : place(count, no_index) {
-        for (const std::uint32_t n : all)
-            if (n != no_index) place[n] = 0;
-        for (std::uint32_t n = 0; n < count; ++n) {
-            if (place[n] == no_index) continue;
-            place[n] = std::uint32_t(numbers.size());
-            numbers.push_back(n);
-        }
-    }
-};
 
 } // namespace
 
@@ -237,35 +211,6 @@ void overlap_by_one_ring(const Model& model, Partition& partition) {
         }
         triangles = std::move(grown);
     }
-}
-
-Model piece_model(const Model& whole, std::span<const std::uint32_t> triangles) {
-    Model piece;
-    piece.triangles = picked(whole.triangles, triangles);
-    std::vector<std::uint32_t> corners;
-    corners.reserve(3 * triangles.size());
-    for (const Triangle& triangle : piece.triangles)
-        corners.insert(corners.end(), triangle.vertex.begin(), triangle.vertex.end());
-    const Used vertices(whole.positions.size(), corners);
-    for (Triangle& triangle : piece.triangles)
-        for (std::uint32_t& v : triangle.vertex) v = vertices.place[v];
-    piece.positions = picked(whole.positions, vertices.numbers);
-    piece.normals = picked(whole.normals, vertices.numbers);
-    piece.uvs = picked(whole.uvs, vertices.numbers);
-    piece.colors = picked(whole.colors, vertices.numbers);
-
-    piece.triangle_materials = picked(whole.triangle_materials, triangles);
-    const Used materials(whole.materials.size(), piece.triangle_materials);
-    for (std::uint32_t& m : piece.triangle_materials) m = materials.place[m];
-    piece.materials = picked(whole.materials, materials.numbers);
-    std::vector<std::uint32_t> used;
-    used.reserve(piece.materials.size());
-    for (const Material& material : piece.materials) used.push_back(material.texture);
-    const Used textures(whole.textures.size(), used);
-    for (Material& material : piece.materials)
-        if (material.texture != no_index) material.texture = textures.place[material.texture];
-    piece.textures = picked(whole.textures, textures.numbers);
-    return piece;
 }
 
 } // namespace spa

@@ -46,7 +46,4 @@ Partition divide_by_bones(const Scene& scene, std::uint32_t max_parts);
 // sampling leaves along a cut are then covered from both sides. O(n).
 void overlap_by_one_ring(const Model& model, Partition& partition);
 
-// The triangles, with the vertices, materials and textures that they use.
-Model piece_model(const Model& whole, std::span<const std::uint32_t> triangles);
-
 } // namespace spa

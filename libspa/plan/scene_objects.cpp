@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_objects.h"
 
+#include "../mesh/piece_model.h"
+
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 #include <unordered_map>
 
@@ -11,11 +12,6 @@ namespace spa::plan {
 namespace {
 
 constexpr std::size_t most_compared = 16; // representatives of equal topology
-
-bool has_inverse(const Affine& map) {
-    const double scale = length(map.linear.row[0]) * length(map.linear.row[1]) * length(map.linear.row[2]);
-    return is_finite(map) && std::abs(determinant(map.linear)) > 1e-12 * scale && scale > 0;
-}
 
 // For each node the topmost one above it (itself included) that draws; no_index: none.
 std::vector<std::uint32_t> drawing_roots(const Scene& scene) {
@@ -185,42 +181,8 @@ std::vector<std::uint32_t> object_of_triangles(const Scene& scene, const std::ve
 }
 
 Model object_model(const Scene& scene, const SceneObject& object) {
-    const Model& from = scene.model;
-    const Affine to_local = inverse(scene.nodes[object.node].to_world);
-    const Mat3 normals_to_local = normal_matrix(to_local.linear);
-    const bool mirrored = determinant(to_local.linear) < 0;
-    Model model;
-    std::unordered_map<std::uint32_t, std::uint32_t> vertices, materials, textures;
-    const auto vertex_of = [&](std::uint32_t vertex) {
-        const auto [found, is_new] = vertices.try_emplace(vertex, std::uint32_t(model.positions.size()));
-        if (!is_new) return found->second;
-        model.positions.push_back(to_float(transform_point(to_local, to_double(from.positions[vertex]))));
-        if (!from.normals.empty())
-            model.normals.push_back(to_float(normalize(normals_to_local * to_double(from.normals[vertex]))));
-        if (!from.uvs.empty()) model.uvs.push_back(from.uvs[vertex]);
-        if (!from.colors.empty()) model.colors.push_back(from.colors[vertex]);
-        return found->second;
-    };
-    const auto material_of = [&](std::uint32_t index) {
-        const auto [found, is_new] = materials.try_emplace(index, std::uint32_t(model.materials.size()));
-        if (!is_new) return found->second;
-        Material material = from.materials[index];
-        if (material.texture != no_index) {
-            const auto [texture, new_texture] =
-                textures.try_emplace(material.texture, std::uint32_t(model.textures.size()));
-            if (new_texture) model.textures.push_back(from.textures[material.texture]);
-            material.texture = texture->second;
-        }
-        model.materials.push_back(std::move(material));
-        return found->second;
-    };
-    for (const std::uint32_t t : object.triangles) {
-        Triangle triangle;
-        for (std::size_t k = 0; k < 3; ++k) triangle.vertex[k] = vertex_of(from.triangles[t].vertex[k]);
-        if (mirrored) std::swap(triangle.vertex[1], triangle.vertex[2]);
-        model.triangles.push_back(triangle);
-        model.triangle_materials.push_back(material_of(from.triangle_materials[t]));
-    }
+    Model model = piece_model(scene.model, object.triangles);
+    move_to_local(model, scene.nodes[object.node].to_world);
     return model;
 }
 

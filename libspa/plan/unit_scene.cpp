@@ -4,6 +4,7 @@
 #include "../bake/center.h"
 #include "../core/element_format.h"
 #include "../core/error.h"
+#include "../measure/ray_truth.h"
 #include "../mesh/part_frame.h"
 
 #include <algorithm>
@@ -53,24 +54,10 @@ UnitScene::UnitScene(const Scene& scene, const std::vector<SceneObject>& objects
     to_unit_.translation = unit_frame(scene.model).center * -scale_;
 }
 
-Vec3d UnitScene::barycentric(std::uint32_t triangle, Vec3d point) const {
-    const auto& v = scene_->model.triangles[triangle].vertex;
-    const Vec3d a = to_double(model_.positions[v[0]]);
-    const Vec3d ab = to_double(model_.positions[v[1]]) - a, ac = to_double(model_.positions[v[2]]) - a;
-    const Vec3d n = cross(ab, ac);
-    const double nn = dot(n, n);
-    if (!(nn > 0)) return {1, 0, 0};
-    const Vec3d p = point - a;
-    const double y = std::clamp(dot(cross(p, ac), n) / nn, 0.0, 1.0);
-    const double z = std::clamp(dot(cross(ab, p), n) / nn, 0.0, 1.0);
-    const double sum = std::max(1.0, y + z);
-    return {1 - (y + z) / sum, y / sum, z / sum};
-}
-
 bool UnitScene::visible(const trace::TriangleHit& hit, Vec3f origin, Vec3f direction) const {
     if (!shader_.needs_alpha(hit.triangle)) return true;
     const Vec3d point = to_double(origin) + to_double(direction) * double(hit.t);
-    return shader_.color(hit.triangle, barycentric(hit.triangle, point), 0).visible;
+    return shader_.color(hit.triangle, measure::barycentric_of(model_, hit.triangle, point), 0).visible;
 }
 
 void UnitScene::first_hits(Vec3f origin, Vec3f direction, float max_t, Scratch& scratch,
@@ -103,7 +90,7 @@ SurfacePoint UnitScene::surface(const ObjectHit& hit, Vec3f origin, Vec3f direct
     SurfacePoint point;
     point.object = hit.object;
     point.position = origin + direction * hit.t;
-    const Vec3d weights = barycentric(hit.triangle, to_double(point.position));
+    const Vec3d weights = measure::barycentric_of(model_, hit.triangle, to_double(point.position));
     const auto& v = scene_->model.triangles[hit.triangle].vertex;
     const Vec3d a = to_double(model_.positions[v[0]]);
     point.plane = to_float(

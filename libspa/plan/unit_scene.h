@@ -64,7 +64,6 @@ public:
     [[nodiscard]] float start_height() const { return start_height_; }
 
 private:
-    [[nodiscard]] Vec3d barycentric(std::uint32_t triangle, Vec3d point) const;
     [[nodiscard]] bool visible(const trace::TriangleHit& hit, Vec3f origin, Vec3f direction) const;
 
     const Scene* scene_;

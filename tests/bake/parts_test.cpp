@@ -4,6 +4,7 @@
 #include "../../libspa/bake/bake_parts.h"
 #include "../../libspa/core/error.h"
 #include "../../libspa/mesh/partition.h"
+#include "../../libspa/mesh/piece_model.h"
 #include "../support/shapes.h"
 
 #include <gtest/gtest.h>
