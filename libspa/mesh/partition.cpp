@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <numeric>
 
 namespace spa {
@@ -107,21 +106,24 @@ Partition follow_nodes(const Scene& scene, const std::vector<std::uint32_t>& nod
     return partition;
 }
 
-// Sums of weights of a triangle's corners, and the largest weight of any, by bone.
+// Of a triangle: the sum of a bone's weights at its corners, and the largest of them.
 struct BoneShare {
+    std::uint32_t bone = 0;
     float sum = 0, largest = 0;
 };
 
-std::map<std::uint32_t, BoneShare> bones_of(const Rig& rig, const Triangle& triangle) {
-    std::map<std::uint32_t, BoneShare> shares;
+void share_out(const Rig& rig, const Triangle& triangle, std::vector<BoneShare>& shares) {
+    shares.clear();
     for (const std::uint32_t v : triangle.vertex) {
         for (std::uint32_t i = rig.first[v]; i < rig.first[v + 1]; ++i) {
-            BoneShare& share = shares[rig.influences[i].bone];
-            share.sum += rig.influences[i].weight;
-            share.largest = std::max(share.largest, rig.influences[i].weight);
+            const Influence& influence = rig.influences[i];
+            auto share = std::find_if(shares.begin(), shares.end(),
+                                      [&](const BoneShare& s) { return s.bone == influence.bone; });
+            if (share == shares.end()) share = shares.insert(share, {influence.bone, 0, 0});
+            share->sum += influence.weight;
+            share->largest = std::max(share->largest, influence.weight);
         }
     }
-    return shares;
 }
 
 } // namespace
@@ -173,14 +175,15 @@ Partition divide_by_nodes(const Scene& scene, std::uint32_t max_parts) {
 Partition divide_by_bones(const Scene& scene, std::uint32_t max_parts) {
     const Rig& rig = scene.rig;
     std::vector<std::vector<std::uint32_t>> triangles(rig.bones.size());
+    std::vector<BoneShare> shares;
     for (std::uint32_t t = 0; t < scene.model.triangles.size(); ++t) {
-        const auto shares = bones_of(rig, scene.model.triangles[t]);
+        share_out(rig, scene.model.triangles[t], shares);
         const auto dominant =
-            std::max_element(shares.begin(), shares.end(),
-                             [](const auto& a, const auto& b) { return a.second.sum < b.second.sum; });
+            std::max_element(shares.begin(), shares.end(), [](const BoneShare& a, const BoneShare& b) {
+                return a.sum != b.sum ? a.sum < b.sum : a.bone > b.bone;
+            });
         for (auto share = shares.begin(); share != shares.end(); ++share)
-            if (share == dominant || share->second.largest >= shared_weight)
-                triangles[share->first].push_back(t);
+            if (share == dominant || share->largest >= shared_weight) triangles[share->bone].push_back(t);
     }
     std::vector<std::uint32_t> nodes;
     std::vector<std::int32_t> joints;

@@ -166,33 +166,15 @@
     const byDefault = (a, b) => (a.asset.status !== 'failed') - (b.asset.status !== 'failed') || a.index - b.index;
     let order = [...rows].sort(byDefault);
     let shown = order;
-    let sorted = { id: null, descending: false };
+    let sorted = pageSorting.unsorted;
     const chosen = new Set();
     let words = [];
 
-    // Those without a value come last either way; equal ones keep their order.
-    function sortBy(column, descending) {
-        const sign = descending ? -1 : 1;
-        const keyed = order.map((row) => ({ row, key: column.key(row.asset) }));
-        keyed.sort((a, b) => {
-            if (a.key === null || b.key === null) return (a.key === null) - (b.key === null);
-            return a.key < b.key ? -sign : a.key > b.key ? sign : 0;
-        });
-        order = keyed.map(({ row }) => row);
-    }
-
-    // The three states of a header: largest or first names first, the other way round, as at the start.
     function toggleSort(column) {
-        const first = column.number === true;
-        if (sorted.id !== column.id) sorted = { id: column.id, descending: first };
-        else if (sorted.descending === first) sorted.descending = !first;
-        else sorted = { id: null, descending: false };
+        sorted = pageSorting.next(sorted, column);
         if (sorted.id === null) order.sort(byDefault);
-        else sortBy(column, sorted.descending);
-        for (const cell of document.querySelectorAll('th[data-column]')) {
-            const direction = sorted.descending ? 'descending' : 'ascending';
-            cell.setAttribute('aria-sort', cell.dataset.column === sorted.id ? direction : 'none');
-        }
+        else order = pageSorting.ordered(order, (row) => column.key(row.asset), sorted.descending);
+        pageSorting.mark(document.querySelectorAll('th[data-column]'), sorted);
         show();
     }
 

@@ -67,4 +67,4 @@ function(spa_page name)
   configure_file(${page_sources}/page_text.h.in ${CMAKE_CURRENT_BINARY_DIR}/page/${name}_page_text.h @ONLY)
 endfunction()
 
-spa_page(batch STYLE base.css batch.css SCRIPT text.js batch.js)
+spa_page(batch STYLE base.css batch.css SCRIPT text.js sorting.js batch.js)

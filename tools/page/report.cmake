@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# The page of `spa report`. Its plots are drawn by Chart.js (https://www.chartjs.org, MIT), which npm fetches in
+# The page of `spa report`. Its plots are drawn by Chart.js (MIT), which npm fetches in
 # the version that npm/package-lock.json pins: sh tools/setup.sh build. Without it the verb is not built.
 find_path(SPA_NODE_MODULES chart.js/dist/chart.umd.min.js PATHS ${PROJECT_SOURCE_DIR}/build/npm/node_modules
   NO_DEFAULT_PATH DOC "Folder node_modules that has chart.js, for the page of spa report")
@@ -11,7 +11,7 @@ if(SPA_NODE_MODULES)
   set(chart_js_licenses ${SPA_NODE_MODULES}/chart.js/LICENSE.md ${SPA_NODE_MODULES}/@kurkle/color/LICENSE.md)
   spa_page(report
     STYLE base.css report.css
-    SCRIPT text.js report_table.js report_plot.js report_details.js report_plans.js report.js
+    SCRIPT text.js sorting.js report_table.js report_plot.js report_details.js report_plans.js report.js
     LIBRARY ${SPA_CHART_JS}
     LICENSES ${chart_js_licenses})
   install(FILES ${SPA_NODE_MODULES}/chart.js/LICENSE.md RENAME chart.js.txt

@@ -21,7 +21,7 @@ const reportTable = (() => {
     function make({ table, columns, rows, named, lead = null, under = () => null, made = () => {}, changed = () => {} }) {
         let order = [...rows];
         let shown = order;
-        let sorted = { id: null, descending: false };
+        let sorted = pageSorting.unsorted;
         let filter = () => true;
         let present = 0; // of `shown`, those in the page
         const bodies = new Map();
@@ -95,29 +95,10 @@ const reportTable = (() => {
             changed(shown);
         }
 
-        // Those without a value come last either way; equal ones keep their order.
-        function sortBy(column, descending) {
-            const sign = descending ? -1 : 1;
-            const keyed = order.map((row) => ({ row, key: column.key(row) }));
-            keyed.sort((a, b) => {
-                if (a.key === null || b.key === null) return (a.key === null) - (b.key === null);
-                return a.key < b.key ? -sign : a.key > b.key ? sign : 0;
-            });
-            order = keyed.map(({ row }) => row);
-        }
-
-        // The three states of a header: largest or first names first, the other way round, as at the start.
         function toggleSort(column) {
-            const first = column.number === true;
-            if (sorted.id !== column.id) sorted = { id: column.id, descending: first };
-            else if (sorted.descending === first) sorted.descending = !first;
-            else sorted = { id: null, descending: false };
-            if (sorted.id === null) order = [...rows];
-            else sortBy(column, sorted.descending);
-            for (const cell of headRow.querySelectorAll('th')) {
-                const direction = sorted.descending ? 'descending' : 'ascending';
-                cell.setAttribute('aria-sort', cell.dataset.column === sorted.id ? direction : 'none');
-            }
+            sorted = pageSorting.next(sorted, column);
+            order = sorted.id === null ? [...rows] : pageSorting.ordered(order, column.key, sorted.descending);
+            pageSorting.mark(headRow.querySelectorAll('th'), sorted);
             show();
         }
 
