@@ -233,7 +233,7 @@ fs::path folder_of_plan(const fs::path& plan) {
 }
 
 fs::path map_path(const Plan& plan, const PlanObject& object, const fs::path& folder, bool follow_links) {
-    const fs::path path = folder / object.map;
+    fs::path path = folder / object.map;
     if (follow_links) return path;
     std::error_code error;
     const fs::path real_folder = fs::weakly_canonical(fs::absolute(folder), error);

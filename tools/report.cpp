@@ -35,7 +35,7 @@ struct Arguments {
     ReportFormat format = ReportFormat::text;
 };
 
-struct Report {
+struct Report { // NOLINT(bugprone-exception-escape): of moving a Json, which is noexcept
     Json json;
     std::vector<MapPictures> pictures; // of each map
     std::size_t unread = 0;

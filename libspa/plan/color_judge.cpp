@@ -81,7 +81,8 @@ std::array<Corner, 4> corners_of(const Grid& grid, Vec3d direction) {
     const double x = std::floor(at.x), y = std::floor(at.y);
     std::array<Corner, 4> corners;
     for (std::size_t k = 0; k < 4; ++k) {
-        const double dx = double(k % 2), dy = double(k / 2);
+        const std::size_t row = k / 2;
+        const double dx = double(k % 2), dy = double(row);
         corners[k] = {wrap(grid, std::int64_t(x + dx), std::int64_t(y + dy)),
                       (1 - std::abs(at.x - x - dx)) * (1 - std::abs(at.y - y - dy))};
     }
