@@ -26,7 +26,7 @@ struct MapReportOptions {
     bool sheets = true; // with pictures
 };
 
-struct MapReport {
+struct MapReport {   // NOLINT(bugprone-exception-escape): of moving a Json, which is noexcept
     PickedJson json; // an entry of `maps` in formats/schemas/report.schema.json
     MapPictures pictures;
     std::optional<ExitCode> failure; // the file could not be read; json["error"] says why
